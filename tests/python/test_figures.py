@@ -144,6 +144,28 @@ def test_a_world_has_a_legend(run: Run) -> None:
         check_inside(figure)
 
 
+def test_a_short_path_in_a_world_is_shown_from_close_by(run: Run) -> None:
+    world = ebac.worlds.preset("sphere")
+    trace = run("ebac", environment=world, seconds=0.5)
+    cut = plot_world(world, [trace]).axes[1]
+    [inset] = cut.child_axes
+    [path] = inset.get_lines()
+    low, high = inset.get_xlim()
+    assert np.ptp(np.asarray(path.get_xdata())) > 0.4 * (high - low)
+    assert "[mm]" in inset.get_title()
+    far = ebac.worlds.preset("sphere", position=0.02)
+    long = run("ebac", environment=far, seconds=0.5)
+    assert not plot_world(far, [long]).axes[1].child_axes
+
+
+def test_the_view_into_a_corner_has_no_holes() -> None:
+    view = plot_world(ebac.worlds.preset("corner")).axes[0]
+    image = np.asarray(view.images[0].get_array())
+    white = (image > 0.99).all(axis=2)
+    # from the top down, a column is background, then bodies, then background
+    assert (np.abs(np.diff(white.astype(int), axis=0)).sum(axis=0) <= 2).all()
+
+
 def test_a_fault_is_named_and_shown(run: Run) -> None:
     trace = ended_by_fault(run("eba", seconds=1.0))
     alone = plot_trace(trace)

@@ -6,6 +6,8 @@ from collections.abc import Sequence
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.patches import Rectangle
+from matplotlib.ticker import MaxNLocator
 from numpy.typing import NDArray
 
 from ebac._util import formatting
@@ -22,8 +24,10 @@ WIDEST = 0.06
 PIXELS = 480
 #: From where it is seen: to the left of, before and above the handle.
 EYE = np.array([-0.75, -0.55, 0.45])
-#: Most steps of a ray, and how near to a surface it ends [m].
-STEPS, NEAR = 120, 2e-5
+#: Most steps of a ray, as one along a surface needs, and how near to a surface it ends [m].
+STEPS, NEAR = 600, 2e-6
+#: A path that is shorter is shown once more, in a frame of its own, and how much about it [m].
+SHORT, AROUND = 0.01, 1e-3
 BODY, SAWN, INSIDE = np.array([0.72, 0.77, 0.83]), np.array([0.6, 0.64, 0.69]), "#c9d3df"
 
 
@@ -136,18 +140,11 @@ def _met(
 
 def _cut(ax: Axes, world: World, traces: Sequence[Trace], up: int) -> None:
     """Draw the plane of x and y (`up` 1) or z (2)."""
-    u = np.linspace(-HALF, HALF, PIXELS)
-    x, y = np.meshgrid(u, u)
-    points = np.zeros((x.size, 3))
-    points[:, 0], points[:, up] = x.ravel(), y.ravel()
-    field = 1e3 * nearest(world, points)[0].reshape(x.shape)
-    ax.contourf(1e3 * u, 1e3 * u, field, levels=[-1e6, 0], colors=[INSIDE])
-    ax.contour(1e3 * u, 1e3 * u, field, levels=[0], colors="black", linewidths=1.0)
-    for trace in traces:
-        places = trace["true.x" if "true.x" in trace else "x"].reshape(len(trace), -1)
-        across = places[:, up] if trace.axes > up else np.zeros(len(trace))
+    _section(ax, world, up, (0.0, 0.0), HALF)
+    paths = [_path(trace, up) for trace in traces]
+    for trace, path in zip(traces, paths, strict=True):
         label = f"handle under {trace.law}" if trace.law else "handle"
-        ax.plot(1e3 * places[:, 0], 1e3 * across, color=colour(trace.law), lw=1.2, label=label)
+        ax.plot(*1e3 * path, color=colour(trace.law), lw=1.2, label=label)
     ax.plot([], [], "s", color=INSIDE, mec="black", ms=8, label="body")
     if not traces:
         ax.plot([], [], color="black", marker=">", lw=1.6, label="motion along x")
@@ -159,3 +156,49 @@ def _cut(ax: Axes, world: World, traces: Sequence[Trace], up: int) -> None:
     dress(ax, f"{'yz'[up - 1]} [mm]")
     ax.set_xlabel("x [mm]")
     legend(ax)
+    if paths:
+        _close(ax, world, traces, paths, up)
+
+
+def _section(
+    ax: Axes, world: World, up: int, middle: tuple[float, float], half: float, pixels: int = PIXELS
+) -> None:
+    """Draw a square of a plane, half its side in metres: bodies and their outlines."""
+    u = np.linspace(-half, half, pixels)
+    x, y = np.meshgrid(middle[0] + u, middle[1] + u)
+    points = np.zeros((x.size, 3))
+    points[:, 0], points[:, up] = x.ravel(), y.ravel()
+    field = 1e3 * nearest(world, points)[0].reshape(x.shape)
+    ax.contourf(1e3 * x, 1e3 * y, field, levels=[-1e6, 0], colors=[INSIDE])
+    ax.contour(1e3 * x, 1e3 * y, field, levels=[0], colors="black", linewidths=1.0)
+
+
+def _path(trace: Trace, up: int) -> Numbers:
+    """Return the way of the handle in a plane [m], shape (2, rows)."""
+    places = trace["true.x" if "true.x" in trace else "x"].reshape(len(trace), -1)
+    across = places[:, up] if trace.axes > up else np.zeros(len(trace))
+    return np.stack([places[:, 0], across])
+
+
+def _close(ax: Axes, world: World, traces: Sequence[Trace], paths: list[Numbers], up: int) -> None:
+    """Show short paths once more from close by, in the lower left of a panel."""
+    every = np.concatenate(paths, axis=1)
+    low, high = every.min(axis=1), every.max(axis=1)
+    size = float((high - low).max())
+    if not size < SHORT:
+        return
+    x, y = (low + high) / 2
+    half = size / 2 + AROUND
+    ax.add_patch(
+        Rectangle((0.02, 0), 0.38, 0.44, transform=ax.transAxes, fc="white", lw=0, zorder=3)
+    )
+    inset = ax.inset_axes((0.04, 0.06, 0.34, 0.34))
+    _section(inset, world, up, (float(x), float(y)), half, PIXELS // 2)
+    for trace, path in zip(traces, paths, strict=True):
+        inset.plot(*1e3 * path, color=colour(trace.law), lw=1.2)
+    inset.set_aspect("equal")
+    inset.set_title("from close by, x [mm]", fontsize="small", pad=3)
+    inset.tick_params(labelsize="small", left=False, labelleft=False)  # the scale of x
+    inset.xaxis.set_major_locator(MaxNLocator(4))
+    corner = 1e3 * (x - half), 1e3 * (y - half)
+    ax.add_patch(Rectangle(corner, 2e3 * half, 2e3 * half, fc="none", ec="0.3", lw=0.8, zorder=3))
