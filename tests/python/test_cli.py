@@ -359,6 +359,8 @@ def test_a_fault_is_told_and_its_log_kept(monkeypatch: pytest.MonkeyPatch, tmp_p
         ("wall --scenario corner.toml --wall-stiffness 3", "environment is a Corner"),
         ("wall --scenario sine.toml --hand-target 0.1", "Sine path, which has no target"),
         ("wall --wall-stiffness 10kN/m", "10kN/m: must be a number (in N/m); give 10000"),
+        ("wall --wall-stiffness 10kN", "10kN: must be a number (in N/m); for 10 kN/m give 10000"),
+        ("drive show joystick 11", "`ebac drive show --node 1` reads a drive on the bus"),
         ("wall --wall-position 2.5mm", "2.5mm: must be a number (in m); give 0.0025"),
         ("wall --wall-position 1.2.3mm", "1.2.3mm: must be a number (in m)"),
         ("wall --out file", "is a file"),

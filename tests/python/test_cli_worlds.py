@@ -96,7 +96,8 @@ def test_every_number_at_a_place_has_its_unit() -> None:
 @pytest.mark.parametrize(
     ("words", "said"),
     [
-        ("worlds sphere --at 1,2", "--at 1,2: must be three numbers [m]"),
+        ("worlds sphere --at 1,2", "--at 1,2: must be three numbers in m, without a unit"),
+        ("worlds sphere --at 1mm,0,0", "1 mm along x is 0.001,0,0"),
         ("worlds sphere --at nan,0,0", "--at nan,0,0: each must lie in [-1, 1] m"),
         ("worlds --at 0,0,0", "in which world?"),
     ],

@@ -492,6 +492,22 @@ def test_command_line(tmp_path: Path) -> None:
     wrong = CliRunner().invoke(app, ["teleop", "master", "--peer", "nowhere"])
     assert wrong.exit_code == 2
     assert "must be an address and a port" in wrong.output
+    wrong = CliRunner().invoke(app, ["teleop", "master", "--peer", "127.0.0.1:99999"])
+    assert "--peer 127.0.0.1:99999: the port must lie in [1, 65535]" in wrong.output
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="UDP of the library is Linux's")
+def test_an_address_that_is_not_this_machine_s_is_named_with_a_remedy() -> None:
+    from typer.testing import CliRunner
+
+    from ebac.cli import app
+
+    done = CliRunner().invoke(app, ["teleop", "slave", "--host", "192.0.2.1", "--seconds", "0"])
+    text = " ".join(done.output.split())
+    assert done.exit_code == 2
+    assert text.startswith(
+        "Error: UDP at 192.0.2.1:49201: this machine has no such address; `ip address` lists those it has"
+    )
 
 
 def test_a_study_and_an_endurance_run_of_the_wrong_type_are_refused_by_name() -> None:

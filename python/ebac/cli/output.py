@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import errno
 import json
+import os
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager
 from math import isfinite
@@ -73,6 +74,8 @@ def refusing(out: Path | None = None) -> Iterator[None]:
             cannot_write(f"--out {out}", error, "folder")
         if file and isinstance(error, FileNotFoundError):
             fail(_missing(file))
+        if file is None and error.errno and error.strerror != os.strerror(error.errno):
+            fail(str(error.strerror))  # a sentence of the library, as of a socket
         verb = "written" if error.errno in _FULL else "read"
         where = f"{file}: " if file else ""
         fail(f"{where}cannot be {verb} ({error.strerror or error})")

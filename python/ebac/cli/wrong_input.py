@@ -25,6 +25,7 @@ MEANT = {"--device-friction": ("--device-coulomb", "--device-friction-compensati
 #: What people look for who give an argument to a command that takes none.
 INSTEAD = {
     "bus load": "`ebac drive plan FILE` prints the load of a network file or profile",
+    "drive show": "`ebac drive show --node 1` reads a drive on the bus, `ebac drive profile NAME` prints a file",
     "conditions": "`ebac study --condition NAME` runs a condition",
 }
 
@@ -91,9 +92,16 @@ def _wrong_value(param: Any, name: str, message: str, words: Sequence[str]) -> s
 def _converted(text: str, unit: str) -> str:
     """Return the number that a value with a unit is in the unit of its option; "" where that is not known."""
     found = re.fullmatch(r"([-+]?\d+\.?\d*(?:e[-+]?\d+)?) *(\D.*)", text)
+    wanted = unit.strip()
     for units in FACTORS.values():
-        if found and found[2] in units and unit.strip() in units:
-            return f"; give {float(found[1]) * units[found[2]] / units[unit.strip()]:.10g}"
+        if not found or wanted not in units:
+            continue
+        if found[2] in units:
+            return f"; give {float(found[1]) * units[found[2]] / units[wanted]:.10g}"
+        meant = next((one for one in units if one.split("/")[0] == found[2]), None)
+        if meant is not None:
+            number = float(found[1]) * units[meant] / units[wanted]
+            return f"; for {found[1]} {meant} give {number:.10g}"
     return ""
 
 

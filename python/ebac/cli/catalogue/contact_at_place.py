@@ -65,7 +65,9 @@ def _numbers(text: str) -> tuple[float, float, float]:
     try:
         x, y, z = (float(word) for word in text.split(","))
     except ValueError:
-        raise ValueError(f"--at {text}: must be three numbers [m], as in 0.001,0,0") from None
+        raise ValueError(
+            f"--at {text}: must be three numbers in m, without a unit; 1 mm along x is 0.001,0,0"
+        ) from None
     if not all(abs(one) <= FARTHEST for one in (x, y, z)):
         raise ValueError(f"--at {text}: each must lie in [-{FARTHEST:g}, {FARTHEST:g}] m")
     return x, y, z

@@ -26,8 +26,10 @@ LOST, BACK = 2, 3
 def peer_of(text: str, option: str) -> tuple[str, int]:
     """Return address and port of an option."""
     host, colon, port = text.rpartition(":")
-    if not colon or not host or not port.isdecimal() or not 0 < int(port) < 65536:
+    if not colon or not host or not port.isdecimal():
         output.fail(f"{option} {text}: must be an address and a port, as 127.0.0.1:49200")
+    if not 1 <= int(port) <= 65535:
+        output.fail(f"{option} {text}: the port must lie in [1, 65535]")
     return host, int(port)
 
 
