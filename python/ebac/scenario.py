@@ -28,7 +28,7 @@ from ebac._core import (
     Wall,
     _World,
 )
-from ebac._util.arguments import keywords_only, refuse_unknown, require, require_path
+from ebac._util.arguments import keywords_only, refuse_unknown, require, require_path, shown
 from ebac._util.copying import refuse_uncopyable
 from ebac._util.text_file import read_text
 from ebac._util.toml_lines import located
@@ -144,7 +144,8 @@ class Scenario:
                 names = _NUMBERS.get(name) or " or ".join(
                     repr(EVERY_LAW) if t is str else t.__name__.lstrip("_") for t in types
                 )
-                raise TypeError(f"Scenario.{name} = {value!r}: must be {names}")
+                given = shown(value) if isinstance(value, type) else repr(value)
+                raise TypeError(f"Scenario.{name} = {given}: must be {names}")
         if isinstance(self.observer, str) and self.observer != EVERY_LAW:
             raise ValueError(
                 f"Scenario.observer = {self.observer!r}: must be True, False, {EVERY_LAW!r} or an Observer"

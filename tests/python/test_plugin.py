@@ -136,9 +136,11 @@ def test_what_cannot_be_asked_is_refused(project: pytest.Pytester, how: str, mes
             ebac_trace.check(ebac.simulate(ebac.Scenario(seconds=0.1), "tca"), {how})
         """
     )
-    result = project.runpytest_inprocess("--ebac-update")
-    result.assert_outcomes(failed=1)
-    assert message in told(result)
+    for words in ([], ["--ebac-update"]):
+        result = project.runpytest_inprocess(*words)
+        result.assert_outcomes(failed=1)
+        assert message in told(result)
+    assert not list(project.path.rglob("*.npz"))  # nor is a golden trace written
 
 
 def test_a_run_of_another_length_is_no_match(project: pytest.Pytester) -> None:

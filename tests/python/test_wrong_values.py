@@ -43,6 +43,14 @@ def trace() -> Any:
             "ebac.drives.load takes the path of a file or the name of a profile, not 3 (int)",
         ),
         (
+            lambda t: E.Scenario(hand=E.hands.LetGo),
+            "Scenario.hand = the class LetGo (call it: LetGo()): must be Hand",
+        ),
+        (
+            lambda t: E.simulate(E.Scenario, "ebac"),
+            "ebac.simulate takes a Scenario, not the class Scenario (call it: Scenario())",
+        ),
+        (
             lambda t: E.replay(3, "ebac"),
             "ebac.replay takes a Trace, a Log or the path of one, not 3 (int)",
         ),

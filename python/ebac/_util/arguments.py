@@ -226,6 +226,8 @@ def refuse_unknown(
 
 
 def shown(value: Any) -> str:
-    """Return a value and its type for a message; a long one as its type alone."""
+    """Return a value and its type for a message; a long one as its type alone, a class with what was meant."""
+    if isinstance(value, type):
+        return f"the class {value.__name__} (call it: {value.__name__}())"
     text = repr(value)
     return f"{text} ({type(value).__name__})" if len(text) <= 60 else type(value).__name__

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -84,6 +84,15 @@ class Comparison:
         return f"<Comparison: {some}; {self.first or 'all agree'}>"
 
 
+def check_columns(tolerances: Iterable[str], compared: Sequence[str]) -> None:
+    """Raise ValueError for a tolerance of a column that is not compared."""
+    unknown = sorted(set(tolerances) - set(compared))
+    if unknown:
+        raise ValueError(
+            f"tolerance for {', '.join(unknown)}: compared are only {', '.join(compared)}"
+        )
+
+
 def compare(
     trace: Trace,
     golden: Trace,
@@ -120,11 +129,7 @@ def compare(
         )
     chosen = [name for name in golden if name != "tick"] if columns is None else list(columns)
     own = dict(tolerances or {})
-    unknown = sorted(set(own) - set(chosen))
-    if unknown:
-        raise ValueError(
-            f"tolerance for {', '.join(unknown)}: compared are only {', '.join(chosen)}"
-        )
+    check_columns(own, chosen)
     found: list[Divergence] = []
     channels: list[str] = []
     for name in chosen:

@@ -12,7 +12,7 @@ from tempfile import NamedTemporaryFile
 from typing import TYPE_CHECKING, Any
 
 from ebac.metrics import contact
-from ebac.testing.compare import Comparison, compare
+from ebac.testing.compare import Comparison, check_columns, compare
 from ebac.testing.metric import Metrics, check_names, differences, metrics_of
 from ebac.testing.tolerance import Tolerance
 from ebac.trace import Trace
@@ -111,6 +111,7 @@ class TraceRegression:
             raise ValueError(f"every = {every}: must be at least 1")
         check_names(metric_tolerances or {})
         chosen = [c for c in COLUMNS if c in trace] if columns is None else list(columns)
+        check_columns(tolerances or {}, ["t", *chosen])
         found = _part(trace, chosen, every)
         came_to = metrics_of(contact(trace)) if metrics else None
         where = self.folder / (_file_name(name) if name else self.name)
@@ -147,8 +148,6 @@ class TraceRegression:
                 tolerances={"t": Tolerance(absolute=1e-9), **(tolerances or {})},
             )  # fmt: skip
         except ValueError as error:
-            if tolerances and "tolerance for" in str(error):
-                raise
             raise AssertionError(f"{file}: {error}; {_remedy()}") from None
         moved = differences(came_to, known, allowed)
         if result.first is None and not moved:
