@@ -48,7 +48,8 @@ def test_a_local_model_is_the_world_itself_and_a_held_force_shakes(found: Engine
 def test_a_figure_shows_all_laws_and_rates(found: Engines) -> None:
     figure = plot_engines(found)
     assert len(figure.axes) == 4 * 2
-    assert all(len(ax.lines) == 3 for ax in figure.axes)
+    assert all(len(ax.lines) == 4 for ax in figure.axes)  # three runs and the ideal rest
+    assert [text.get_text()[:4] for text in figure.axes[0].texts] == ["cut:"]  # a held force shakes
 
 
 def test_the_command_says_the_same_as_json(tmp_path: Path) -> None:

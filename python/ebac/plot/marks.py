@@ -77,6 +77,17 @@ def mark_end(ax: Axes, trace: Trace, *, label: bool = True) -> None:
         )
 
 
+def mark_cut(ax: Axes, least: float, most: float, unit: str) -> None:
+    """Name the range of what is drawn where it goes beyond the panel."""
+    low, high = ax.get_ylim()
+    if least < low or most > high:
+        ax.text(
+            0.98, 0.97, f"cut: {least:.3g} to {most:.3g} {unit}", ha="right", va="top",
+            transform=ax.transAxes, fontsize="small",
+            bbox={"color": "white", "alpha": 0.8, "pad": 1},
+        )  # fmt: skip
+
+
 def used_axes(trace: Trace) -> list[int]:
     """Return the axes on which something moved or acted; the first one where nothing did."""
     names = [n for n in ("x", "f_env", "f_cmd", "f_applied") if n in trace]

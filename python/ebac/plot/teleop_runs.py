@@ -9,6 +9,7 @@ from matplotlib.axes import Axes
 from matplotlib.ticker import FuncFormatter, MaxNLocator
 
 from ebac._util.arguments import several
+from ebac.plot.marks import mark_cut
 from ebac.plot.style import Numbers, Picture, dress, figure_legend, line, new_figure
 
 if TYPE_CHECKING:
@@ -99,9 +100,4 @@ def _limit(
     room = 0.05 * max(high - low, 1.0)
     axes[0].set_ylim(low - room, high + room)
     for ax, (least, most) in zip(axes, spans, strict=True):
-        if least < low - room or most > high + room:
-            ax.text(
-                0.98, 0.98, f"cut: {least:.3g} to {most:.3g} {unit}", ha="right", va="top",
-                transform=ax.transAxes, fontsize="small",
-                bbox={"color": "white", "alpha": 0.8, "pad": 1},
-            )  # fmt: skip
+        mark_cut(ax, least, most, unit)
