@@ -1,6 +1,7 @@
 """`ebac track`: what it prints and writes, and how it refuses."""
 
 import json
+import re
 from pathlib import Path
 from typing import Any
 
@@ -10,7 +11,7 @@ from typer.testing import CliRunner
 
 from ebac.cli import app
 from ebac.plot import plot_tracking
-from ebac.tracking import RecordedPath, evaluate, fit_circle
+from ebac.tracking import RecordedPath, evaluate, fit_circle, fit_line
 
 
 @pytest.fixture(autouse=True)
@@ -43,6 +44,21 @@ def test_files_give_a_table_figures_and_numbers() -> None:
     assert f"radius {1e3 * fit.radius:.3f} mm +- " in done.stdout
     assert "circle.csv: columns x, y in mm." in done.stdout
     assert {f.name for f in Path("ebac-track").iterdir()} == {"circle.png", "track.json"}
+
+
+@pytest.mark.parametrize("shape", ["circle", "line"])
+def test_errors_of_rounding_of_an_exact_path_are_printed_as_0(shape: str) -> None:
+    turn = np.linspace(0, 2 * np.pi, 200, endpoint=False)
+    circle = 0.05 * np.column_stack([np.cos(turn), np.sin(turn)])
+    line = np.outer(np.linspace(0, 0.1, 200), [1, 0.5])
+    path = circle if shape == "circle" else line
+    np.savetxt(f"{shape}.csv", path, "%.17g", ",", header="x [m],y [m]", comments="")
+    out = " ".join(ebac_command(f"{shape}.csv", "--no-files").stdout.split())
+    assert re.search(r"\+- 0 (mm|deg)", out), out
+    fit = fit_circle(path) if shape == "circle" else fit_line(path)
+    assert "SD 0 mm" in repr(fit)
+    assert "e-" not in repr(fit)
+    assert "-0.0000" not in repr(fit)
 
 
 def test_json_has_the_documented_keys_and_writes_nothing() -> None:

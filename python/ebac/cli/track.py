@@ -144,6 +144,7 @@ def _write(folder: Path, found: list[Tracking], robust: bool, to: ResultOptions)
 def _show(found: list[Tracking]) -> None:
     from ebac._util import formatting
     from ebac.tracking import LineFit
+    from ebac.tracking.deviation import digits
 
     headings = ["file", "shape", "SD", "path error", "largest", "points", "outliers", "fitted"]
     grid = output.table(headings, numbers=(2, 3, 4, 5, 6))
@@ -151,9 +152,9 @@ def _show(found: list[Tracking]) -> None:
         row, fit = t.row(), t.fit
         if isinstance(fit, LineFit):
             fitted = (f"{formatting.quantity(row['length_m'], 'm')} long, at {row['angle_deg']:.3f} "
-                    f"+- {1.96 * row['angle_sd_deg']:.2g} deg")  # fmt: skip
+                    f"+- {digits(1.96 * row['angle_sd_deg'], 2)} deg")  # fmt: skip
         else:
-            fitted = (f"radius {formatting.quantity(fit.radius, 'm')} +- {1.96e3 * fit.radius_sd_m:.2g} mm, "
+            fitted = (f"radius {formatting.quantity(fit.radius, 'm')} +- {digits(1.96e3 * fit.radius_sd_m, 2)} mm, "
                     f"{row['arc_deg']:.0f} deg of it")  # fmt: skip
             if len(fit.centre) == 3:
                 rms, largest = (

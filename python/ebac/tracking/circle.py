@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ebac.tracking.deviation import Deviation, Numbers, checked, measure
+from ebac.tracking.deviation import Deviation, Numbers, checked, digits, measure
 from ebac.tracking.robust import counted
 
 #: A radius beyond this many times the size of the path is a line.
@@ -67,11 +67,11 @@ class CircleFit:
 
     def __repr__(self) -> str:
         """Return one line: radius, centre, arc, deviation, points counted."""
-        centre = ", ".join(f"{1e3 * value:.4f}" for value in self.centre.tolist())
-        plane = f", out of its plane {1e3 * self.out_of_plane_rms_m:.3g} mm rms"
+        centre = ", ".join(f"{round(1e3 * value, 4) + 0.0:.4f}" for value in self.centre.tolist())
+        plane = f", out of its plane {digits(1e3 * self.out_of_plane_rms_m, 3)} mm rms"
         return (
             f"<CircleFit: radius {1e3 * self.radius:.4g} mm, centre ({centre}) mm, "
-            f"arc {np.degrees(self.arc_rad):.4g} deg; SD {1e3 * self.deviation.sd_m:.3g} mm"
+            f"arc {np.degrees(self.arc_rad):.4g} deg; SD {digits(1e3 * self.deviation.sd_m, 3)} mm"
             f"{plane if len(self.centre) == 3 else ''} of "
             f"{int(self.inliers.sum())} of {len(self.inliers)} points; distances in .residuals>"
         )

@@ -11,6 +11,15 @@ from numpy.typing import ArrayLike, NDArray
 Numbers = NDArray[np.float64]
 
 
+#: What is smaller is printed as 0: errors of rounding [mm or degrees].
+LEAST = 1e-9
+
+
+def digits(value: float, count: int) -> str:
+    """Return a number with few digits, and 0 for an error of rounding."""
+    return f"{value if abs(value) >= LEAST else 0:.{count}g}"
+
+
 @dataclass(frozen=True, kw_only=True)
 class Deviation:
     """How far points lie from their fitted path: n distances d_i from p fitted numbers.

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ebac.tracking.deviation import Deviation, Numbers, checked, measure
+from ebac.tracking.deviation import Deviation, Numbers, checked, digits, measure
 from ebac.tracking.robust import counted
 
 
@@ -56,7 +56,7 @@ class LineFit:
         """Return one line: length, direction, deviation, points counted."""
         return (
             f"<LineFit: length {1e3 * self.length_m:.4g} mm, angle {np.degrees(self.angle_rad):.4g} deg; "
-            f"SD {1e3 * self.deviation.sd_m:.3g} mm of {int(self.inliers.sum())} of {len(self.inliers)} points; "
+            f"SD {digits(1e3 * self.deviation.sd_m, 3)} mm of {int(self.inliers.sum())} of {len(self.inliers)} points; "
             "distances in .residuals>"
         )
 
