@@ -262,6 +262,10 @@ def test_study_and_its_figures() -> None:
     )
     assert [row.contact for row in found.rows] == ["free", "soft"] * 2
     assert all(row.bounded == row.runs == 1 for row in found.rows)
+    title, headings, *rows = repr(found).splitlines()
+    assert title.startswith("Teleoperation, simulated")
+    assert "shaking [mm]" in headings
+    assert len(rows) == 4
     figure = plot_teleop(found)
     assert len(figure.axes) == 6
     shown = [line.get_xdata()[0] for line in figure.axes[0].get_lines()[:2]]

@@ -11,6 +11,7 @@ import numpy as np
 
 from ebac._core import STILL_SWING, Hand, Link, MinimumJerk, SlaveModel
 from ebac._util.arguments import named, require, several
+from ebac._util.report import report
 from ebac.teleop.run import SPARE, Run, simulate
 from ebac.teleop.schemes import SCHEMES, Scheme, chosen_scheme
 
@@ -89,7 +90,21 @@ class StudyRow:
     most_N: float
 
 
-@dataclass(frozen=True, kw_only=True)
+#: What a printed study shows of a row; `Study.table` has all.
+SHOWN = (
+    "scheme",
+    "contact",
+    "network",
+    "delay_s",
+    "runs",
+    "still",
+    "shaking_m",
+    "least_network_J",
+    "transparency",
+)
+
+
+@dataclass(frozen=True, kw_only=True, repr=False)
 class Study:
     """What `study` found.
 
@@ -103,6 +118,13 @@ class Study:
 
     rows: tuple[StudyRow, ...]
     schemes: tuple[Scheme, ...]
+
+    def __repr__(self) -> str:
+        """Return a row for each scheme, contact and network."""
+        rows = [{name: row[name] for name in SHOWN} for row in self.table()]
+        return report(
+            "Teleoperation, simulated: the worst of the hands, transparency their median", rows
+        )
 
     def table(self) -> list[dict[str, Any]]:
         """Return the rows as dictionaries, units in the keys."""
