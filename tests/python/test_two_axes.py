@@ -403,6 +403,47 @@ def test_a_ball_that_the_hand_slides_around_is_not_lost() -> None:
     assert trace["true.energy"].sum(axis=1).min() > -2e-3
 
 
+def tracing(radius: float, press: float, frequency: float, hand: ebac.Hand) -> ebac.Hand:
+    """Return a hand that goes around a disc that it touches at x = 2 mm, and presses so hard [N] on its way."""
+    circle = radius - press / hand.stiffness
+    across = ebac.Sine(centre=radius + 2e-3, amplitude=circle, frequency=frequency, phase=-pi / 2)
+    along = ebac.Sine(centre=0.0, amplitude=circle, frequency=frequency, phase=pi)
+    return hand.replace(path=[across, along])
+
+
+@every_device
+@given(
+    radius=st.floats(10e-3, 15e-3),
+    press=st.floats(1, 3),
+    frequency=st.floats(0.5, 3),
+    stiffness=st.sampled_from([2e3, 10e3, 20e3]),
+    delay=st.integers(0, 2),
+    mass=st.floats(0.05, 0.5),
+)
+@example(radius=0.01, press=1.8, frequency=2, stiffness=10e3, delay=1, mass=0.15)
+def test_a_hand_that_traces_a_disc_keeps_it(
+    device: str,
+    radius: float,
+    press: float,
+    frequency: float,
+    stiffness: float,
+    delay: int,
+    mass: float,
+) -> None:
+    """What the hand pays across the push, for the damping of the device, is there for the wall."""
+    hand = tracing(radius, press, frequency, ebac.Hand(mass=mass, damping=6, stiffness=400))
+    scenario = ebac.Scenario(
+        device=DEVICES[device],
+        environment=ebac.Disc(x=radius + 2e-3, radius=radius, stiffness=stiffness),
+        hand=hand,
+        timing=ebac.Timing(delay=delay),
+        seconds=20,
+    )
+    trace = ebac.simulate(scenario, "ebac")
+    assert trace["law.starved"].max() < 0.1
+    assert trace["true.energy"].sum(axis=1).min() > -2e-3
+
+
 @every_device
 def test_a_moving_body_tells_no_speed_far_above_its_own(device: str) -> None:
     """A direction nearly out of the reach of a gimbal once made 47 m/s of 0.15 m/s."""

@@ -30,6 +30,11 @@ class EasedFrame {
   /// By how much the force of the last tick has changed along each direction because that has turned since [N].
   const Axes& turned() const EBAC_RT { return turned_; }
 
+  /// Whether the direction in which `contact` pushes is another one than that of the last tick, as around a ball.
+  bool turns(const ContactForce& contact) const EBAC_RT {
+    return pushed_ && contact.frame != frame_;
+  }
+
   /// The directions of a contact that shares none.
   const ContactForce& follow(const ContactForce& contact) EBAC_RT {
     frame_ = contact.frame;

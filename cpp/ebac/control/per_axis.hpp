@@ -67,6 +67,7 @@ class PerAxis : public Replaceable<Law> {
       }
       turned_.step(axes, eased, delay, ask);
     } else {
+      if (frame_.turns(contact)) account_.share(laws_, axes.size(), contact);
       turned_.step(axes, frame_.follow(contact), delay, ask);
     }
     if constexpr (std::same_as<Law, AnyLaw>) {

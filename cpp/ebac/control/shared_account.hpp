@@ -8,8 +8,9 @@
 
 namespace ebac {
 
-/// The accounts of the directions that share what pushes, as one: their frame turns, and what is paid along one direction
-/// is given back along another.
+/// The accounts of directions that turn, as one: what is paid along one direction is given back along another. So it is
+/// where several surfaces share the push, and where a hand slides around a body: it pays across the push, for the device's
+/// damping, and what the late force gives out is charged along it.
 ///
 /// What all hold beyond their reserves is where the force is, by its square. What they lack of them is lacking in each:
 /// together they lend about as much as one.
