@@ -83,15 +83,18 @@ def multisine(
     draw = np.random.Generator(np.random.PCG64(whole("seed", seed)))
     waves = 2 * np.pi * np.outer(lines / seconds, t)
 
-    def made(p: Values) -> Values:
-        return np.asarray(np.cos(waves + p[:, None]).sum(axis=0))
+    # Two products show which phases are best, in a sixth of the time; their last digits are not those of the wave.
+    cosines, sines = np.cos(waves), np.sin(waves)
 
-    best, at = made(phase), phase
+    def tried(p: Values) -> float:
+        return crest(np.einsum("k,kt", np.cos(p), cosines) - np.einsum("k,kt", np.sin(p), sines))
+
+    lowest, at = tried(phase), phase
     for _ in range(whole("tries", tries)):
         trial = at + 0.3 * draw.standard_normal(lines.size)
-        wave = made(trial)
-        if crest(wave) < crest(best):
-            best, at = wave, trial
+        if (peak := tried(trial)) < lowest:
+            lowest, at = peak, trial
+    best = np.cos(waves + at[:, None]).sum(axis=0)
     return t, amplitude * best / np.abs(best).max()
 
 

@@ -41,6 +41,8 @@ def gains(
         float,
         typer.Option(
             help="Also try hands that differ from the identified one by this share.",
+            min=0,
+            max=3,
             rich_help_panel=given.FIT,
         ),
     ] = 0.3,
@@ -119,13 +121,14 @@ def gains(
             noise_gain=noise_gain,
             energy=energy,
         )
+        law = one_law(law)
         pairs = given.given_logs(logs, reading, target)
         recordings, targets = [r for r, _ in pairs], [one for _, one in pairs]
         timing = Timing(dt=round(recordings[0].dt, 9), delay=delay)
         loop = fit_loop(
             recordings, targets, timing=timing, fixed=given.numbers(fix, "--fix"), robust=robust
         )
-        result = fit_gains(loop, one_law(law), limits=limits, vary=vary, progress=progress)
+        result = fit_gains(loop, law, limits=limits, vary=vary, progress=progress)
     files = _write(to, result)
     if as_json:
         more = result.to_dict()
