@@ -170,8 +170,8 @@ def test_what_an_engine_has_started_is_ended_with_it(room: Path) -> None:
     (room / "other.py").write_text(PARENT)
     (room / "engine.sh").write_text(f"#!/bin/sh\n{sys.executable} other.py\n")
     (room / "engine.sh").chmod(0o755)
-    done = run(room, "./engine.sh")
-    assert done.returncode == 0, done.stderr
+    done = here(room, words("./engine.sh"))
+    assert done.exit_code == 0, done.stderr
     child = int((room / "child").read_text())
     state = Path(f"/proc/{child}/stat")
     assert not state.exists() or state.read_text().split()[2] == "Z"

@@ -94,10 +94,11 @@ def test_a_gimbal_that_leans_far_out_has_a_rest_too(target: float) -> None:
 def test_a_study_judges_the_hands_on_the_papers_joystick() -> None:
     """It once said that every hand is good where tca gave out 13.8 J and `good` was not known."""
     base = ebac.Scenario(device=ebac.presets.device("joystick"))
-    study = ebac.study(ebac.Operators.grid(), ["tca", "ebac"], base=base)
+    few = ebac.Operators.grid()[::7]
+    study = ebac.study(few, ["tca", "ebac"], base=base)
     tca, exact = study.rows
-    assert (tca.good, exact.good) == (0, 60)
-    assert len(study.failures) == 60
+    assert (tca.good, exact.good) == (0, 9)
+    assert len(study.failures) == 9
 
 
 def test_a_study_says_which_hands_it_does_not_judge() -> None:
