@@ -7,8 +7,6 @@ its threads, which run before all others, leave time for the test.
 import os
 import re
 import signal
-import subprocess
-import sys
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
@@ -141,18 +139,16 @@ def test_simulated_means_another_process_whose_hand_is_told_where_to_go(
 
 def test_a_killed_loop_leaves_the_drives_to_their_own_watch(config: Path, tmp_path: Path) -> None:
     out = tmp_path / "out"
-    command = [sys.executable, "-m", "ebac.cli", "run", str(config), "--out", str(out), "--no-live"]
-    command.append("--yes")
-    with served(config):
-        process = subprocess.Popen([*command, "--seconds", "600"])
+    words = ["run", str(config), "--out", str(out), "--no-live", "--yes", "--seconds", "600"]
+    with served(config), ForkedProgram(*words) as process:
         end = time.monotonic() + PATIENCE
         # Rows come when the drives are set up: before, this test by SDO would disturb the run by SDO.
         while not has_rows(out) or states() != [drives.State.OPERATION_ENABLED] * 2:
             assert process.poll() is None
             assert time.monotonic() < end
             time.sleep(0.2)
-        process.send_signal(signal.SIGKILL)
-        process.wait()
+        process.kill()
+        assert process.wait(PATIENCE) == -signal.SIGKILL
         while drives.State.OPERATION_ENABLED in (now := states()) and time.monotonic() < end:
             time.sleep(0.05)
         assert drives.State.OPERATION_ENABLED not in now
