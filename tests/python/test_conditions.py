@@ -100,7 +100,8 @@ def test_a_note_says_what_a_condition_replaces_of_a_scenario(tmp_path: Path) -> 
     assert "the conditions replace device.mechanics.damping = 5 N s/m by 2; " in text
     assert "environment.stiffness = 3000 N/m by 10000" in text
     assert "timing.delay = 3 samples by 1." in text
-    ablation = ("ablation", "--population", str(hands), "--json", "--scenario", str(file))
+    few = ("--law", "tca", "--beside", "eba")  # of few pieces
+    ablation = ("ablation", *few, "--population", str(hands), "--json", "--scenario", str(file))
     text = told(*ablation)
     assert "the conditions replace device.mechanics.damping = 5 N s/m by 2; " in text
     ebac.Scenario(seconds=3).save(file)
