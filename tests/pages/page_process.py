@@ -104,15 +104,25 @@ def shell(text: str) -> int:
 
 def serve() -> None:
     """Follow one page after the other, until there is no further request."""
-    for line in sys.stdin:
-        child = os.fork()
-        if child == 0:
-            request = json.loads(line)
-            begin(request)
-            main(json.loads(Path(request["steps"]).read_text(encoding="utf-8")))
-            return
-        _, status = os.waitpid(child, 0)
-        print(os.waitstatus_to_exitcode(status), flush=True)
+    import plain_pictures
+
+    import ebac.cli  # noqa: F401
+
+    plain_pictures.SAVE.write_png = plain_pictures.draw_plain
+    with tempfile.TemporaryFile("w+", encoding="utf-8") as told:
+        for line in sys.stdin:
+            child = os.fork()
+            if child == 0:
+                request = json.loads(line)
+                begin(request)
+                main(json.loads(Path(request["steps"]).read_text(encoding="utf-8")))
+                # Not where it failed: if its picture is why, the next try meets the same.
+                print(*plain_pictures.drawn, sep="\n", file=told)
+                return
+            _, status = os.waitpid(child, 0)
+            told.seek(0)
+            plain_pictures.drawn.update(told.read().splitlines())
+            print(os.waitstatus_to_exitcode(status), flush=True)
 
 
 def begin(request: dict[str, Any]) -> None:
@@ -132,9 +142,4 @@ def begin(request: dict[str, Any]) -> None:
 
 
 if __name__ == "__main__":
-    import plain_pictures
-
-    import ebac.cli  # noqa: F401
-
-    plain_pictures.SAVE.write_png = plain_pictures.draw_plain
     serve()
