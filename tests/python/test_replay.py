@@ -57,6 +57,25 @@ def test_a_force_sensor_that_saturates_replays_to_the_bit(tmp_path: Path) -> Non
         assert_same_commands(ebac.replay(log, "ebac"), recorded)
 
 
+@pytest.mark.parametrize(
+    ("sensor", "told"),
+    [
+        (ebac.ForceSensor(period=1.3e-3, noise=0.03), False),
+        (ebac.ForceSensor(stops_at=0.1), False),
+        (ebac.ForceSensor(stops_at=0.1, repeats=True), True),
+    ],
+    ids=["slow", "stops", "repeats"],
+)
+def test_forces_of_unknown_age_are_warned_of(sensor: ebac.ForceSensor, told: bool) -> None:
+    recorded = ebac.simulate(ebac.Scenario(seconds=0.3, device=ebac.Device(sensor=sensor)), "ebac")
+    if told:
+        assert_same_commands(ebac.replay(recorded, "ebac"), recorded)
+    else:
+        with pytest.warns(UserWarning, match="age of its force"):
+            replayed = ebac.replay(recorded, "ebac")
+        assert (replayed["f_cmd"] != recorded["f_cmd"]).any()
+
+
 def test_through_a_log_on_disk_and_a_bus(tmp_path: Path) -> None:
     recorded = ebac.simulate(ebac.Scenario(seconds=0.4), "ebac", through="can")
     recorded.save(tmp_path / "run.mcap")

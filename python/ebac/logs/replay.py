@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -46,7 +47,9 @@ def replay(
     Encoder counts, currents applied, measured forces and the time of each tick come from the log; estimation,
     kinematics, virtual world, law and limits are those of the loop. The law that was recorded, with its parameters,
     gives the recorded commands to the bit, for a log from its first tick on without gaps (to rounding where static
-    compensation has a soft start). At a gap the time of the tick is that since the row before.
+    compensation has a soft start). At a gap the time of the tick is that since the row before. A simulated trace does
+    not have the age of its force: with a sensor that has a `period` or that stops, the observer sees another age, and
+    the replay warns.
 
     **Limits of a replay**: nothing the law commands reaches hand or device. Whether a contact is stable, where
     it would rest, and how the hand would have answered stay unknown; energies are those of the recorded force along
@@ -86,6 +89,7 @@ def replay(
             "replay: the log has no scenario, so device and virtual world are unknown; give scenario=..."
         )
     _check(recorded)
+    _warn_of_unknown_ages(recorded)
     source = _source(recorded, scenario.device)
     source.observer = scenario.designed_observer()
     finished = design(law, scenario.device, scenario.known_timing, **changes)
@@ -130,6 +134,19 @@ def _check(recorded: Trace) -> None:
         raise ValueError(f"replay: the log has no column {', '.join(missing)}")
     if len(recorded) == 0:
         raise ValueError("replay: the log has no rows")
+
+
+def _warn_of_unknown_ages(recorded: Trace) -> None:
+    """Warn of forces that were not new in each tick, where no column tells how old they were."""
+    if recorded.scenario is None or "ft.age" in recorded:
+        return
+    sensor = recorded.scenario.device.sensor
+    if sensor.period > 0 or (np.isfinite(sensor.stops_at) and not sensor.repeats):
+        warnings.warn(
+            "replay: the trace does not have the age of its force, which was not new in each tick (its simulated "
+            "sensor has a period or stops); a law on the observer gives other commands than were recorded",
+            stacklevel=3,
+        )
 
 
 def _source(recorded: Trace, device: Device) -> _core.ReplayLog:
