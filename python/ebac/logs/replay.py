@@ -137,7 +137,7 @@ def _check(recorded: Trace) -> None:
 
 
 def _warn_of_unknown_ages(recorded: Trace) -> None:
-    """Warn of forces that were not new in each tick, where no column tells how old they were."""
+    """Warn of forces that were not new in each tick, where no column has their age."""
     if recorded.scenario is None or "ft.age" in recorded:
         return
     sensor = recorded.scenario.device.sensor
