@@ -546,3 +546,9 @@ def test_seed_0_is_a_seed_of_its_own() -> None:
     zero, one, again = (json.loads(CliRunner().invoke(app, words).stdout)["rows"] for words in runs)
     assert zero == again
     assert zero != one
+
+
+def test_a_run_equals_itself_alone() -> None:
+    one, other = (teleop.simulate("waves", seconds=0.2) for _ in range(2))
+    assert one == one
+    assert one != other

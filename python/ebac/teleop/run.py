@@ -23,7 +23,7 @@ NO_REST = 5e-3
 SPARE = 1e-3
 
 
-@dataclass(frozen=True, kw_only=True, repr=False)
+@dataclass(frozen=True, kw_only=True, eq=False, repr=False)
 class Run:
     """A run of both sides.
 
