@@ -65,7 +65,7 @@ def quantity(value: float | None, unit: str, *, signed: bool = False, none: str 
     if value is None or not isfinite(value):
         return none
     if unit == "threshold":
-        value, unit = value if value >= LEAST_VIBRATION else 0.0, "1"
+        value, unit = _felt(value), "1"
     factor, shown, decimals = SHOWN.get(unit, (1, "" if unit == "1" else unit, 3))
     more = 1 if unit in ("m", "J") else 3
     text = _number(value * factor, decimals, more, signed, exact=unit not in SHOWN)
@@ -87,6 +87,10 @@ def listed(title: str, result: Any, lines: Iterable[tuple[str, str, str, str]]) 
     shown = [f"  {label:<20}{quantity(of_contact(result, name), unit, none=none)}"
              for label, name, unit, none in lines]  # fmt: skip
     return "\n".join([title, *shown])
+
+
+def _felt(vibration: float) -> float:
+    return vibration if vibration >= LEAST_VIBRATION else 0.0
 
 
 def of_contact(result: Any, name: str) -> Any:
@@ -290,7 +294,7 @@ def force_verdict(
     counted = "no jump" if jumps == 0 else f"{jumps:.0f} jump{'s' if jumps > 1 else ''}"
     vibration = "not known"
     if perceived is not None and isfinite(perceived):
-        vibration = f"{perceived if perceived >= LEAST_VIBRATION else 0:.3g} thresholds"
+        vibration = f"{_felt(perceived):.3g} thresholds"
     return (
         f"{'quiet' if quiet else 'not quiet'}: settled {settled}, {counted}, vibration {vibration}"
     )
