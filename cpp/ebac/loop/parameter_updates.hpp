@@ -123,7 +123,7 @@ class ParameterUpdates {
     }
     if (const auto* message = world_.take()) {
       chain.change(message->value);
-      if constexpr (requires { law.blend(); }) law.blend();
+      if constexpr (requires { law.take_over(); }) law.take_over();
       applied_.add({tick, message->serial, UpdateOf::kEnvironment});
     }
     if constexpr (requires { device.aim(std::size_t{}, 0.0); }) {
