@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copyreg
 import warnings
 from typing import Any
 
@@ -11,7 +12,7 @@ from ebac import _core
 from ebac._util.arguments import require
 from ebac._util.fault_remedies import REMEDIES
 from ebac._util.foreign_worlds import foreign
-from ebac.laws import AnyLaw, CoreLaw, PythonLaw, design, law_name
+from ebac.laws import AnyLaw, CoreLaw, KeptLaw, PythonLaw, design, law_error, law_name
 from ebac.scenario import Scenario
 from ebac.trace import Trace
 
@@ -35,9 +36,9 @@ class LoopFault(RuntimeError):
     trace : Trace
         Every row up to the stop; the last ones are the evidence.
     remedy : str
-        What to do first; empty where a hand or world of your own raised an error.
+        What to do first; empty where a law, hand or world of your own raised an error.
 
-    Where a hand or world of your own raised an error, that is its `__cause__`.
+    Where a law, hand or world of your own raised an error, that is its `__cause__`.
     """
 
     def __init__(
@@ -47,10 +48,11 @@ class LoopFault(RuntimeError):
         hand: BaseException | None = None,
         world: BaseException | None = None,
         limits: _core.Limits | None = None,
+        law: BaseException | None = None,
     ) -> None:
         self.fault = fault
         self.trace = trace
-        self.remedy = "" if hand is not None or world is not None else REMEDIES[fault]
+        self.remedy = REMEDIES[fault] if (hand or world or law) is None else ""
         row = int((trace["fault"] != 0).argmax())
         cause = fault.name.lower().replace("_", " ")
         if hand is not None:
@@ -59,6 +61,8 @@ class LoopFault(RuntimeError):
         elif world is not None:
             what = getattr(trace.scenario and trace.scenario.environment, "what", "the world")
             cause = f"{what} raised {type(world).__name__}: {world}"
+        elif law is not None:
+            cause = f"the law {trace.law} raised {type(law).__name__}: {law}"
         elif fault is _core.Fault.LAW_NOT_FINITE:
             cause = f"{cause}: {trace.law or 'the law'} gave no finite force"
         elif limits is not None:
@@ -67,6 +71,10 @@ class LoopFault(RuntimeError):
             f"fault {int(fault)} ({cause}) in tick {trace['tick'][row]}, t = {trace['t'][row]:.6g} s: "
             "the command was set to zero and the loop stopped; see .trace for the rows before it"
         )
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Return what a copy is made from: its text, not the arguments."""
+        return copyreg.__newobj__, (type(self), *self.args), self.__dict__  # type: ignore[attr-defined]
 
 
 def _beyond(fault: _core.Fault, trace: Trace, row: int, limits: _core.Limits) -> str:
@@ -132,7 +140,8 @@ def simulate(
     Raises
     ------
     LoopFault
-        When a stage gave no finite number, or the device left its limits; carries the trace.
+        When a stage gave no finite number, a law, hand or world in Python raised an error, or the device left its
+        limits; carries the trace.
     KeyError, TypeError, ValueError
         For a law that does not exist or cannot be made; see `design`. Through CAN also for a delay of 0 samples,
         and when the process data would take over 90 % of the bus, or more time than the loop waits.
@@ -156,19 +165,22 @@ def simulate(
             allowed = _core.Limits.of(scenario.device)
         setup = _core._with_loop(setup, soft_start=soft_start, limits=allowed)
     _check_observer(finished, scenario)
+    errors: list[BaseException] = []
     if isinstance(finished, CoreLaw):
         rows = finished._simulate(setup, through is not None, bus)
     else:
-        rows = _core._simulate_python(setup, finished, through is not None, bus)
+        kept = KeptLaw(finished, errors)
+        rows = _core._simulate_python(setup, kept, through is not None, bus)
     name = law if isinstance(law, str) else law_name(finished)
     trace = Trace.from_rows(rows, scenario=scenario, law=name, law_repr=repr(finished))
     fault = _core.Fault(int(trace["fault"][-1]))
     own = None if mine is None else mine.error
     if own is not None and not isinstance(own, Exception):
         raise own
+    of_law = law_error(errors)
     if fault is not _core.Fault.NONE:
         error = _hand_error(setup)
-        raise LoopFault(fault, trace, error, own, allowed) from error or own
+        raise LoopFault(fault, trace, error, own, allowed, of_law) from error or own or of_law
     if mine is not None and (remark := mine.remark()):
         warnings.warn(remark, stacklevel=2)
     return trace

@@ -4,6 +4,7 @@ A new law is tested by being in the list.
 """
 
 import math
+import pickle
 import re
 from typing import Any
 
@@ -143,18 +144,51 @@ def test_an_infinite_pull_ends_in_a_latched_fault() -> None:
     assert error.fault in (ebac.Fault.DEVICE, ebac.Fault.POSITION_NOT_FINITE)
 
 
-def test_what_a_python_law_raises_comes_out_as_it_was() -> None:
-    with pytest.raises(ZeroDivisionError, match="by design"):
-        ebac.simulate(ebac.Scenario(), After(10, ZeroDivisionError("by design")))
+def test_what_a_python_law_raises_ends_the_run_by_its_name() -> None:
+    error = fault_of(ebac.Scenario(), After(10, ZeroDivisionError("by design")))
+    assert "(the law After raised ZeroDivisionError: by design) in tick 10" in str(error)
+    assert isinstance(error.__cause__, ZeroDivisionError)
+    assert error.remedy == ""
+    assert len(error.trace) == 20
+    assert (error.trace["f_cmd"][:10] == 1).all()
 
 
-def test_what_the_reset_of_a_python_law_raises_comes_out_as_it_was() -> None:
+def test_what_the_reset_of_a_python_law_raises_ends_the_run_by_its_name() -> None:
     class NoReset(After):
+        name = "unset"
+
         def reset(self) -> None:
             raise LookupError("no reset")
 
-    with pytest.raises(LookupError, match="no reset"):
-        ebac.simulate(ebac.Scenario(), NoReset(10, 0.0))
+    error = fault_of(ebac.Scenario(), NoReset(10, 0.0))
+    assert "(the law unset raised LookupError: no reset) in tick 0" in str(error)
+
+
+def test_an_error_in_a_python_law_ends_a_comparison() -> None:
+    law = After(10, ZeroDivisionError("by design"))
+    for compare in (
+        lambda: ebac.studies.shapes((law,), worlds=("sphere",), devices=("joystick",)),
+        lambda: ebac.studies.engines(laws=(law,), rates=(60.0,)),
+        lambda: ebac.sweep([ebac.Scenario(seconds=0.1)], law),
+    ):
+        with pytest.raises(ebac.LoopFault, match="the law After raised ZeroDivisionError"):
+            compare()
+
+
+def test_a_fault_comes_back_from_another_process() -> None:
+    error = fault_of(ebac.Scenario(seconds=0.1), After(10, math.nan))
+    again = pickle.loads(pickle.dumps(error))
+    assert (str(again), again.fault, again.remedy) == (str(error), error.fault, error.remedy)
+    assert again.trace["f_cmd"].tobytes() == error.trace["f_cmd"].tobytes()
+
+
+def test_an_interrupt_in_a_python_law_comes_out_as_it_was() -> None:
+    class Stopped(After):
+        def step(self, port: ebac.Port) -> float:
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        ebac.simulate(ebac.Scenario(), Stopped(10, 0.0))
 
 
 class NoPort(After):
@@ -195,8 +229,8 @@ def test_a_python_law_with_other_arguments_is_told_how_to_take_them(law: Any, me
 @pytest.mark.parametrize("answer", ["ten newtons", None, np.zeros(2), [1.0], {}])
 def test_a_python_law_that_gives_no_number_is_named_with_its_answer(answer: Any) -> None:
     text = f"After.step returned {answer!r}: must return the force [N] of one axis, a number"
-    with pytest.raises(TypeError, match=re.escape(text)):
-        ebac.simulate(ebac.Scenario(), After(10, answer))
+    error = fault_of(ebac.Scenario(), After(10, answer))
+    assert f"the law After raised TypeError: {text}" in str(error)
 
 
 @pytest.mark.parametrize("answer", [1, True, np.float32(1), np.array(1.0)])

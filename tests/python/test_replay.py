@@ -215,6 +215,14 @@ def test_a_law_that_fails_on_a_log_raises_with_its_trace() -> None:
         ebac.replay(recorded, Broken())
     assert "log.f_cmd" in stopped.value.trace
 
+    class Raises(Broken):
+        def step(self, port: ebac.Port) -> float:
+            return 1 / 0
+
+    with pytest.raises(ebac.LoopFault, match="the law Raises raised ZeroDivisionError") as stopped:
+        ebac.replay(recorded, Raises())
+    assert isinstance(stopped.value.__cause__, ZeroDivisionError)
+
 
 def test_what_cannot_be_replayed_is_refused(tmp_path: Path) -> None:
     recorded = ebac.simulate(ebac.Scenario(seconds=0.1), "ebac")

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from ebac import _core
 from ebac._util.arguments import require
-from ebac.laws import AnyLaw, CoreLaw, design, law_name
+from ebac.laws import AnyLaw, CoreLaw, KeptLaw, design, law_error, law_name
 from ebac.logs.log import Log
 
 if TYPE_CHECKING:
@@ -78,7 +78,7 @@ def replay(
     ValueError
         When the log has no rows, lacks a column, has no scenario, or has other axes than the device.
     LoopFault
-        When a stage of the replay gave no finite number; carries the trace.
+        When a stage of the replay gave no finite number, or a law in Python raised an error; carries the trace.
     """
     from ebac.trace import Trace
 
@@ -93,15 +93,17 @@ def replay(
     source = _source(recorded, scenario.device)
     source.observer = scenario.designed_observer()
     finished = design(law, scenario.device, scenario.known_timing, **changes)
+    errors: list[BaseException] = []
     if isinstance(finished, CoreLaw):
         rows = finished._replay(source, scenario.device, scenario.environment)
     else:
-        rows = _core._replay_python(source, finished, scenario.device, scenario.environment)
+        kept = KeptLaw(finished, errors)
+        rows = _core._replay_python(source, kept, scenario.device, scenario.environment)
     trace = Trace.from_rows(
         rows, scenario=scenario, law=law_name(finished), law_repr=repr(finished)
     )
     trace = trace.with_column("tick", recorded["tick"][: len(trace)])
-    return _unless_faulty(trace)
+    return _unless_faulty(trace, law_error(errors))
 
 
 def _trace_of(log: Trace | Log | str | Path) -> Trace:
@@ -217,10 +219,10 @@ def _per_axis(recorded: Trace, column: str) -> NDArray[Any]:
     return values.reshape(len(values), -1)
 
 
-def _unless_faulty(trace: Trace) -> Trace:
+def _unless_faulty(trace: Trace, of_law: Exception | None) -> Trace:
     from ebac.simulation import LoopFault
 
     fault = _core.Fault(int(trace["fault"][-1]))
-    if fault is not _core.Fault.NONE and int(fault) < int(_core.Fault.DEVICE):
-        raise LoopFault(fault, trace)
+    if of_law is not None or 0 < int(fault) < int(_core.Fault.DEVICE):
+        raise LoopFault(fault, trace, law=of_law) from of_law
     return trace

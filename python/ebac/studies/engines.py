@@ -204,6 +204,8 @@ def _run(scenario: Scenario, law: AnyLaw) -> tuple[EngineRow, Trace]:
             warnings.simplefilter("ignore", UserWarning)  # of models that are too old: a column
             trace = simulate(scenario, law)
     except LoopFault as fault:
+        if fault.__cause__ is not None:  # an error in Python code of a user's own
+            raise
         judged: dict[str, Any] = {"still": False, "quiet": False, "exact": None, "passive": False}
         return EngineRow(**known, **judged), fault.trace
     met = contact(trace)

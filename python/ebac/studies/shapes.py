@@ -226,7 +226,9 @@ def _row(known: dict[str, Any], scenario: Scenario, law: AnyLaw) -> ShapeRow:
     }
     try:
         trace = simulate(scenario, law)
-    except LoopFault:
+    except LoopFault as fault:
+        if fault.__cause__ is not None:  # an error in Python code of a user's own
+            raise
         return ShapeRow(**known, still=False, quiet=False, exact=None, passive=False)
     axes = [contact(trace, axis=axis) for axis in range(trace.axes)]
     rests = np.array([one.rest_m for one in axes])

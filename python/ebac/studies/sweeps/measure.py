@@ -101,7 +101,7 @@ def _measure_python(
         try:
             trace = simulate(scenario, law)
         except LoopFault as stopped:
-            if stopped.__cause__ is not None:  # the fault of a hand in Python, not of the law
+            if stopped.__cause__ is not None:  # an error in Python code of a user's own
                 raise
             trace = stopped.trace
         for name, value in _row(trace, limits).items():
