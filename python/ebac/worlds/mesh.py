@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import warnings
 from dataclasses import dataclass, replace
+from errno import ENOENT
 from pathlib import Path
 from typing import Any, Self
 
@@ -91,7 +92,10 @@ class Mesh(Triangles):
 
     def surface(self) -> Surface:
         """Return the triangles in metres."""
-        vertices, faces, open_edges = read(self.file, Path(self.file).stat().st_mtime_ns)
+        path = Path(self.file)
+        if not path.exists():
+            raise FileNotFoundError(ENOENT, "Mesh.file: there is no such file", self.file)
+        vertices, faces, open_edges = read(self.file, path.stat().st_mtime_ns)
         if open_edges and not self.thickness:
             raise ValueError(
                 f"{self.file}: the surface is open, {open_edges} edges belong to one triangle: it has no inside; "
