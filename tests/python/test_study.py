@@ -304,7 +304,9 @@ def test_one_failure_of_each_law_is_shown_and_its_trace_kept(hands_csv: Path) ->
     assert len(kept) == len(kinds)
 
 
-def test_resume_continues_in_a_folder_of_runs_only(tmp_path: Path, hands_csv: Path) -> None:
+def test_resume_continues_or_begins_but_not_among_other_files(
+    tmp_path: Path, hands_csv: Path
+) -> None:
     mine = tmp_path / "mine"
     mine.mkdir()
     (mine / "study.json").write_text("mine")
@@ -315,15 +317,10 @@ def test_resume_continues_in_a_folder_of_runs_only(tmp_path: Path, hands_csv: Pa
     assert [file.read_text() for file in mine.iterdir()] == ["mine"]
     empty = tmp_path / "empty"
     empty.mkdir()
-    for nothing, says in (
-        (empty, "is empty and has no runs"),
-        (tmp_path / "new", "does not exist"),
-    ):
-        text = " ".join(command(*words, nothing, code=2).output.split())
-        assert f"{nothing.name} {says}" in text
-        assert "leave --resume out to start in a new folder" in text
-    assert not (tmp_path / "new").exists()
-    command(*(word for word in words if word != "--resume"), tmp_path / "new")
+    for fresh in (empty, tmp_path / "new"):
+        text = " ".join(command(*words, fresh).output.split())
+        assert f"{fresh.name} has no runs yet, begins with the first" in text
+        assert "no runs yet" not in command(*words, fresh).output
     other = command(*words[:3], "eba", *words[4:], tmp_path / "new", code=2).output
     assert "--force instead of --resume to start anew" in " ".join(other.split())
 

@@ -113,7 +113,8 @@ class ResultOptions(FigureOptions):
         as_json : bool
             Whether to write only where --out is given.
         resume : str
-            The folder of runs to continue from, in that of --out or in the last of this command; "" starts anew.
+            The folder of runs to continue from, in that of --out or in the last of this command, where there is one; ""
+            starts anew.
         """
         self.check()
         if self.no_files:
@@ -183,16 +184,14 @@ def free_folder(out: Path, *, force: bool) -> Path:
 
 
 def _resumed(out: Path, command: str, runs: str) -> Path:
-    """Return a folder that holds such runs; one without them ends the command."""
+    """Return a folder that holds such runs, or one to begin in; one that has other files ends the command."""
     if not (out / runs / "sweep.json").is_file():
         if _has_files(out):
-            has = "has files but"
-        else:
-            has = "is empty and has" if out.is_dir() else "does not exist: there are"
-        output.fail(
-            f"--resume: {out} {has} no runs of `ebac {command}` ({runs}/sweep.json) to continue; give the folder of "
-            f"the stopped {command} with --out, or leave --resume out to start in a new folder"
-        )
+            output.fail(
+                f"--resume: {out} has files but no runs of `ebac {command}` ({runs}/sweep.json) to continue; give the "
+                f"folder of the stopped {command} with --out, or leave --resume out to start in a new folder"
+            )
+        output.note(f"--resume: {out} has no runs yet, begins with the first")
     return out
 
 

@@ -124,7 +124,7 @@ def observer(*, default: str | bool = True) -> Any:
 
 def resume(what: str) -> Any:
     """Return the option that continues a study, map or ablation where it was stopped."""
-    text = f"Continue a stopped {what} in its folder: that of --out, or the last one."
+    text = f"Continue a stopped {what} in its folder: that of --out, or the last one; begin where there is none."
     return typer.Option("--resume", help=text, rich_help_panel=RUN)
 
 
