@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import pickle
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -102,6 +103,10 @@ def test_a_wall_of_ones_own_is_met() -> None:
     tube = Tube(points=points, radius=[0.012] * 12)
     own = Lumen(STILL, points=points, radii=[0.012] * 12, wall=Cavity(tube))
     plain = Lumen(STILL, points=points, radii=[0.012] * 12)
+    for lumen in (own, plain):
+        again = pickle.loads(pickle.dumps(Procedure(lumen=lumen))).lumen
+        assert again.patient == STILL
+        assert str(again.near([0.0, 0.01, 0.0], 5e-3)) == str(lumen.near([0.0, 0.01, 0.0], 5e-3))
     for x in ((-0.1, 0.005, 0.0), (-0.1, 0.011, 0.004)):
         assert own.near(x, 4e-3, place=0.1).depth == pytest.approx(
             plain.near(x, 4e-3, place=0.1).depth, abs=1e-6

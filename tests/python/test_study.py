@@ -2,6 +2,7 @@
 
 import csv
 import json
+import pickle
 from pathlib import Path
 from typing import Any
 
@@ -204,6 +205,17 @@ def test_a_study_resumes(tmp_path: Path, few: Study) -> None:
         again = study(FEW, ["tca", "ebac"], ["d1K10", "tapping-6Hz"], out=tmp_path)
         for name, values in few.columns.items():
             assert values.tobytes() == again.columns[name].tobytes(), name
+
+
+def test_a_study_and_every_condition_come_back_from_pickle(few: Study) -> None:
+    again = pickle.loads(pickle.dumps(few))
+    assert again.rows == few.rows
+    assert again.trace(0)["x"].tobytes() == few.trace(0)["x"].tobytes()
+    for name, condition in CONDITIONS.items():
+        twin = pickle.loads(pickle.dumps(condition))
+        made = condition.scenarios(FEW, ebac.Scenario())
+        assert twin.scenarios(FEW, ebac.Scenario()) == made, name
+        assert twin.believed(made[0]) == condition.believed(made[0]), name
 
 
 def test_what_is_no_condition_is_refused() -> None:

@@ -2,6 +2,7 @@
 
 import json
 import math
+import pickle
 import tomllib
 from pathlib import Path
 from typing import Any
@@ -34,6 +35,10 @@ ALONE = ebac.Scenario(observer=False)
 def unguarded() -> Worst:
     law = Variant("ebac", {"guard": False})
     return worst(law, base=ALONE, family=["swinging", "drive"], evaluations=120, threads=2)
+
+
+def test_a_search_comes_back_from_pickle(unguarded: Worst) -> None:
+    assert pickle.loads(pickle.dumps(unguarded)).rows() == unguarded.rows()
 
 
 # --- families ---

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import NamedTuple
+from functools import partial
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -63,12 +64,21 @@ class Lumen:
         line = np.zeros((0, 3)) if points is None else np.asarray(points, dtype=float)
         if line.ndim != 2 or line.shape[1] != 3 or not np.isfinite(line).all():
             raise ValueError(f"Lumen.points: has the shape {line.shape}: must be (n, 3), finite")
+        self._own: dict[str, Any] = {
+            "points": None if points is None else line,
+            "radii": radii,
+            "wall": wall,
+        }
         self.core = _Lumen(
             self.patient,
             [(float(x), float(y), float(z)) for x, y, z in line],
             [float(r) for r in ([] if radii is None else radii)],
             None if wall is None else made(wall),
         )
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Return what a copy is made from."""
+        return partial(Lumen, **self._own), (self.patient,)
 
     def landmarks(self) -> dict[str, float]:
         """Return where its parts end, by name [m] along the lumen."""

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial, wraps
 from math import pi, sin
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import TYPE_CHECKING, Any, ParamSpec, TypeAlias, TypeVar, cast
 
 from ebac._core import DeviceFacts, Hand, MinimumJerk, Recorded, Sine, Step, Tapping, Timing, Wall
 
@@ -13,8 +14,35 @@ if TYPE_CHECKING:
 
 Change: TypeAlias = Callable[["Scenario"], "Scenario"]
 Belief: TypeAlias = Callable[["Scenario"], tuple[DeviceFacts, Timing]]
+Arguments = ParamSpec("Arguments")
+Made = TypeVar("Made", bound=Callable[["Scenario"], Any])
 
 
+class _Remade:
+    """A function that can be pickled: by what it was made from."""
+
+    def __init__(self, made: Callable[[Scenario], Any], *by: Any) -> None:
+        self._made, self._by = made, by
+
+    def __call__(self, scenario: Scenario) -> Any:
+        return self._made(scenario)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        make, values, named = self._by
+        return partial(make, **named), values
+
+
+def _remade(make: Callable[Arguments, Made]) -> Callable[Arguments, Made]:
+    """Decorate a function that makes a change, so that the change can be pickled."""
+
+    @wraps(make)
+    def wrapped(*values: Arguments.args, **named: Arguments.kwargs) -> Made:
+        return cast(Made, _Remade(make(*values, **named), wrapped, values, named))
+
+    return wrapped
+
+
+@_remade
 def together(*changes: Change) -> Change:
     """Return all changes, one after the other."""
 
@@ -26,26 +54,31 @@ def together(*changes: Change) -> Change:
     return change
 
 
+@_remade
 def scenario(**values: Any) -> Change:
     """Change the scenario itself: seconds, jitter, seed."""
     return lambda s: s.replace(**values)
 
 
+@_remade
 def timing(**values: Any) -> Change:
     """Change sample time or delay."""
     return lambda s: s.replace(timing=s.timing.replace(**values))
 
 
+@_remade
 def wall(**values: Any) -> Change:
     """Change the wall."""
     return lambda s: s.replace(environment=_wall(s).replace(**values))
 
 
+@_remade
 def hand(**values: Any) -> Change:
     """Change the hand: tremor, letting go."""
     return lambda s: s.replace(hand=s.hand.replace(**values))
 
 
+@_remade
 def device(part: str, **values: Any) -> Change:
     """Change one part of the device."""
     return lambda s: s.replace(
@@ -53,6 +86,7 @@ def device(part: str, **values: Any) -> Change:
     )
 
 
+@_remade
 def untold(change: Change, *, declared: Change | None = None) -> Change:
     """Change a scenario; its observer, if it has one, is designed before, or for another change that is `declared`."""
 
@@ -63,6 +97,7 @@ def untold(change: Change, *, declared: Change | None = None) -> Change:
     return hidden
 
 
+@_remade
 def device_mass(mass: float) -> Change:
     """Give the device a mass at the handle [kg], handle and rotor in the same shares."""
 
@@ -78,6 +113,7 @@ def device_mass(mass: float) -> Change:
     return change
 
 
+@_remade
 def approach(way: float) -> Change:
     """Set the free motion of the hand before contact with the wall [m]; 0 starts on the surface."""
 
@@ -93,11 +129,13 @@ def approach(way: float) -> Change:
     return change
 
 
+@_remade
 def slow_press(duration: float) -> Change:
     """Let the hand reach its target along a minimum-jerk path of this many seconds."""
     return _path(lambda target, surface: MinimumJerk(target=target, duration=duration))
 
 
+@_remade
 def waves(amplitude: float, frequency: float, seconds: float) -> Change:
     """Let the hand's target swing about its place [m], [Hz] for this many seconds, then rest there."""
     times = [0.01 * i for i in range(round(100 * seconds) + 1)]
@@ -105,6 +143,7 @@ def waves(amplitude: float, frequency: float, seconds: float) -> Change:
     return _path(lambda target, surface: Recorded(t=times, x=[target + x for x in swing]))
 
 
+@_remade
 def held(seconds: float) -> Change:
     """Replace the hand by one that moves 30 mm over 3 s, from 10 mm before the wall, and holds [s].
 
@@ -119,6 +158,7 @@ def held(seconds: float) -> Change:
     return change
 
 
+@_remade
 def tapping(frequency: float, lift: float = 0.01) -> Change:
     """Let the hand tap [Hz]: half a period at its target, half `lift` [m] before the surface."""
     return _path(
@@ -126,6 +166,7 @@ def tapping(frequency: float, lift: float = 0.01) -> Change:
     )
 
 
+@_remade
 def pump(amplitude: float, frequency: float, depth: float = 2e-3) -> Change:
     """Replace the hand by a stiff position drive that swings [m], [Hz] around a depth [m] inside the wall.
 
@@ -160,6 +201,7 @@ def truth(s: Scenario) -> tuple[DeviceFacts, Timing]:
     return s.device.facts, s.known_timing
 
 
+@_remade
 def mistaken(*, delay: int | None = None, **factors_or_values: float) -> Belief:
     """Return what laws are designed for when some facts are wrong: `damping`, `mass` as factors, others as values."""
 
