@@ -47,6 +47,19 @@ def trace() -> Any:
             "Scenario.hand = the class LetGo (call it: LetGo()): must be Hand",
         ),
         (
+            lambda t: E.Hand(model=E.hands.LetGo),
+            "Hand.model = the class LetGo (call it: LetGo()): must be Reflex, FingerPad, NonlinearGrip, LetGo, an "
+            "object with force(t, x, v), or None",
+        ),
+        (
+            lambda t: E.Device().replace(motor=E.Motor),
+            "Device.motor = the class Motor (call it: Motor()): must be a Motor",
+        ),
+        (
+            lambda t: E.worlds.World(E.worlds.Sphere),
+            "World: the class Sphere (call it: Sphere()): must be a Body or a solid of ebac.worlds",
+        ),
+        (
             lambda t: E.simulate(E.Scenario, "ebac"),
             "ebac.simulate takes a Scenario, not the class Scenario (call it: Scenario())",
         ),

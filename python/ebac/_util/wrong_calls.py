@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from enum import Enum
 from functools import wraps
 from types import ModuleType
@@ -44,9 +44,11 @@ def wrapped(function: Any, label: str, name: str) -> Any:
         try:
             return call(*values, **given)
         except TypeError as error:
-            if "(): incompatible " not in str(error)[:80]:
-                raise
             text = str(error)
+            if "(): incompatible " not in text[:80]:
+                if (meant := _with_classes_shown(text, given.values())) == text:
+                    raise
+                raise TypeError(meant) from None
         from ebac._util.signatures import core_sentence
 
         raise TypeError(core_sentence(label, name, text, values, given))
@@ -55,6 +57,16 @@ def wrapped(function: Any, label: str, name: str) -> Any:
     checked.__qualname__, checked.__module__ = label, "ebac._core"
     checked.__annotations__ = {}
     return checked
+
+
+def _with_classes_shown(text: str, values: Iterable[Any]) -> str:
+    """Return a message of the core that says of a class in place of an object what was meant."""
+    from ebac._util.arguments import shown
+
+    for value in values:
+        if isinstance(value, type):
+            text = text.replace(repr(value), shown(value))
+    return text
 
 
 def _not_made(self: Any, *values: Any, **given: Any) -> None:

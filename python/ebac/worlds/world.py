@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ebac import _core
 from ebac._core import Elastic, HuntCrossley, Layer, Swing
-from ebac._util.arguments import number
+from ebac._util.arguments import number, shown
 from ebac._util.wrong_calls import plain_constructor
 from ebac.worlds.part import Part, array, points
 from ebac.worlds.solids import SOLIDS, Solid, made
@@ -145,7 +145,7 @@ class World(_core._World):
         all_of_them = []
         for body in bodies:
             if not isinstance(body, (Body, *SOLIDS)):
-                raise TypeError(f"World: {body!r}: must be a Body or a solid of ebac.worlds")
+                raise TypeError(f"World: {shown(body)}: must be a Body or a solid of ebac.worlds")
             all_of_them.append(body if isinstance(body, Body) else Body(solid=body))
         super().__init__([_parts(body) for body in all_of_them])
         self._bodies = tuple(all_of_them)
