@@ -1,11 +1,15 @@
 """What commands say of files: what is missing, and what was written."""
 
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
 import typer
 
+from ebac._util.atomic_folder import filled
 from ebac.cli import output
+from ebac.cli.files import free_folder
 
 
 @pytest.mark.parametrize(
@@ -65,3 +69,42 @@ def test_the_runs_that_resume_needs_are_listed(
     assert "sweep-ebac/, sweep-tca/: every run, from which --resume continues" in shown
     output.list_files(tmp_path / "sweep-tca", ["a"])
     assert "--resume" not in capsys.readouterr().out
+
+
+WRITES = """
+import sys, time
+from ebac._util.atomic_folder import filled
+with filled("results") as draft:
+    (draft / "half").write_text("half")
+    print(draft.name, flush=True)
+    time.sleep(60)
+"""
+
+
+def test_the_draft_of_a_killed_command_is_removed_and_that_of_a_running_one_is_not(
+    tmp_path: Path,
+) -> None:
+    out = tmp_path / "results"
+    both = [
+        subprocess.Popen([sys.executable, "-c", WRITES], cwd=tmp_path, stdout=subprocess.PIPE, text=True)
+        for _ in range(2)
+    ]  # fmt: skip
+    try:
+        killed, running = (process.stdout.readline().strip() for process in both if process.stdout)
+        assert sorted(file.name for file in out.iterdir()) == sorted([killed, running])
+        both[0].kill()
+        both[0].wait()
+        with filled(out) as draft:
+            (draft / "whole").write_text("whole")
+        assert sorted(file.name for file in out.iterdir()) == [running, "whole"]
+        (out / "whole").unlink()
+        with pytest.raises(typer.Exit):
+            free_folder(out, force=False)
+    finally:
+        for process in both:
+            process.kill()
+            process.communicate()
+    assert free_folder(out, force=False) == out  # what was killed has left nothing to keep
+    with filled(out):
+        pass
+    assert not list(out.iterdir())

@@ -2,15 +2,32 @@
 
 from __future__ import annotations
 
+import os
+import platform
+import shutil
 from collections.abc import Iterator
-from contextlib import contextmanager, suppress
+from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
 from tempfile import TemporaryDirectory
+
+#: Where there are no locks: a disk, or a system, that has none.
+NO_LOCKS = (OSError, ImportError)
+
+
+def is_abandoned(path: Path) -> bool:
+    """Return whether a path is the draft of a process of this machine that was killed: its lock ended with it."""
+    if not path.name.startswith(_prefix()):
+        return False
+    try:
+        with _locked(path, wait=False):
+            return True
+    except NO_LOCKS:  # or it is at work
+        return False
 
 
 @contextmanager
 def filled(out: str | Path) -> Iterator[Path]:
-    """Give a draft folder whose files move to `out` when all of them are written.
+    """Give a draft folder whose files move to `out` when all of them are written; remove those of killed processes.
 
     Raises
     ------
@@ -21,12 +38,43 @@ def filled(out: str | Path) -> Iterator[Path]:
     new = not target.exists()
     target.mkdir(parents=True, exist_ok=True)
     try:
-        with TemporaryDirectory(prefix=".draft-", dir=target) as draft:
-            yield Path(draft)
-            for file in sorted(Path(draft).iterdir()):
+        with _draft(target) as draft:
+            yield draft
+            for file in sorted(draft.iterdir()):
                 file.replace(target / file.name)
     except BaseException:
         if new:
             with suppress(OSError):  # not empty
                 target.rmdir()
         raise
+
+
+@contextmanager
+def _draft(target: Path) -> Iterator[Path]:
+    """Give a new folder in `target` that is locked while it is there, so that others know it is in use."""
+    with ExitStack() as stack:
+        with ExitStack() as making:
+            with suppress(*NO_LOCKS):  # nothing is removed
+                making.enter_context(_locked(target))
+                for old in filter(is_abandoned, target.iterdir()):
+                    shutil.rmtree(old, ignore_errors=True)
+            draft = Path(stack.enter_context(TemporaryDirectory(prefix=_prefix(), dir=target)))
+            with suppress(*NO_LOCKS):
+                stack.enter_context(_locked(draft))
+        yield draft
+
+
+@contextmanager
+def _locked(folder: Path, *, wait: bool = True) -> Iterator[None]:
+    import fcntl  # not on Windows
+
+    number = os.open(folder, os.O_RDONLY)
+    try:
+        fcntl.flock(number, fcntl.LOCK_EX if wait else fcntl.LOCK_EX | fcntl.LOCK_NB)
+        yield
+    finally:
+        os.close(number)
+
+
+def _prefix() -> str:
+    return f".draft-{platform.node()}-"

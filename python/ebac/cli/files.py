@@ -223,7 +223,9 @@ def _number(path: Path, name: str) -> int:
 
 
 def _has_files(folder: Path) -> bool:
-    return folder.is_dir() and next(folder.iterdir(), None) is not None
+    from ebac._util.atomic_folder import is_abandoned
+
+    return folder.is_dir() and not all(map(is_abandoned, folder.iterdir()))
 
 
 def new_file(option: str, file: Path, *, force: bool) -> Path:
