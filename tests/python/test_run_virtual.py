@@ -201,6 +201,23 @@ def test_the_data_sheet_counts_on_a_virtual_clock_too(tmp_path: Path) -> None:
         VirtualDevice(beyond, delay=1)
 
 
+def test_range_and_counts_of_the_sensor_count_on_a_virtual_clock_too() -> None:
+    known = Configuration.load(EXAMPLE)
+    assert known.sensor is not None
+    coarse = known.replace(sensor=known.sensor.replace(counts_per_force=10.0)).simulate(seconds=1)
+    force = coarse["f_meas"]
+    assert np.ptp(force) > 1
+    np.testing.assert_allclose(force, np.round(force, 1), atol=1e-9)
+    small = known.replace(sensor=known.sensor.replace(force_range=2.0))
+    with pytest.raises(ebac.LoopFault, match="force saturated") as stopped:
+        small.simulate(seconds=2)
+    assert np.abs(stopped.value.trace["f_meas"]).max() == 2.0
+    run = VirtualDevice(small, delay=1).start(small.design(), small.environment)
+    run.advance(2000)
+    with pytest.raises(ebac.LoopFault, match="force saturated"):
+        run.finish()
+
+
 @pytest.mark.parametrize(("seconds", "soon"), [(5.0, False), (2.5, True)])
 def test_the_view_of_a_run_asks_for_the_handle_before_the_force_fades(
     seconds: float, soon: bool

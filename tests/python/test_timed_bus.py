@@ -51,6 +51,8 @@ def test_two_drives_at_1_mbit_are_never_late_and_the_wall_is_the_same(known: Con
 
 def test_without_its_time_nothing_changes(known: Configuration) -> None:
     scenario = known.scenario()
+    counts = scenario.device.sensor.replace(quantum=1e-6)  # those of the configured sensor
+    scenario = scenario.replace(device=scenario.device.replace(sensor=counts))
     bare = ebac.simulate(
         scenario, known.design(), through="can", limits=known.limits, soft_start=known.soft_start
     )

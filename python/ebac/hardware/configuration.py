@@ -232,8 +232,9 @@ class Configuration:
         """Simulate the run on a virtual clock, with the same law, drives and bus and every tick on time.
 
         The result is what a run on hardware should give. Time begins when the drives have power. Frames take time on
-        the bus, and an answer that the loop did not wait for is late, as on hardware. The force is read at the handle
-        without a network. The simulated run is the first one after power-on: the drives count from 0.
+        the bus, and an answer that the loop did not wait for is late, as on hardware. The force is read at the handle,
+        in the counts and the range of the configured sensor, without a network. The simulated run is the first one
+        after power-on: the drives count from 0.
 
         Parameters
         ----------
@@ -260,13 +261,25 @@ class Configuration:
         self._refuse_wrong_wiring()
         check_outside(self, positions_at_zero(self), self.environment)
         return simulate(
-            self.scenario(seconds=seconds),
+            self._on_virtual_clock(seconds),
             self.design(),
             through="can",
             bus=self.timed_bus() if bus_time else None,
             limits=self.limits,
             soft_start=self.soft_start,
         )
+
+    def _on_virtual_clock(self, seconds: float | None = None) -> Scenario:
+        """Return the scenario with the counts and the range of the configured sensor, which no network applies."""
+        made = self.scenario(seconds=seconds)
+        if self.sensor is None:
+            return made
+        own = made.device.sensor
+        read = own.replace(
+            quantum=max(own.quantum, 1 / self.sensor.counts_per_force),
+            range=min(own.range, self.sensor.force_range or own.range),
+        )
+        return made.replace(device=made.device.replace(sensor=read))
 
     def _refuse_wrong_wiring(self) -> None:
         axes = self.device.axes

@@ -62,7 +62,7 @@ class VirtualDevice:
         from ebac.simulation import on_bus
 
         known, bus = self.configuration, self.configuration.timed_bus()
-        scenario = on_bus(known.scenario().replace(environment=environment), "can", bus)
+        scenario = on_bus(known._on_virtual_clock().replace(environment=environment), "can", bus)
         setup = _core.Setup(
             device=scenario.device,
             hand=scenario.hand,
