@@ -1,10 +1,12 @@
 """Help texts: they name what a command does by default, and are whole in 80 columns."""
 
+import subprocess
+import sys
 from collections.abc import Iterator
 from typing import Any
 
 import pytest
-import typer
+import typer.main
 from typer.testing import CliRunner
 
 from ebac.cli import app
@@ -45,3 +47,19 @@ def test_help_is_whole_in_80_columns(words: tuple[str, ...]) -> None:
             assert not name.startswith("--") or name in shown, name
     for name, one in getattr(EVERY[words], "commands", {}).items():
         assert one.hidden or name in shown
+
+
+@pytest.mark.parametrize("words", [["--version"], ["laws", "--json"], ["wall", "-h"]], ids=" ".join)
+def test_a_command_does_not_wait_for_the_others(words: list[str]) -> None:
+    code = f"""
+import atexit, sys
+from ebac.cli import app
+others = ("numpy", "ebac.cli.drive", "ebac.cli.studies.study", "ebac.cli.teleop")
+atexit.register(lambda: print([name for name in others if name in sys.modules], file=sys.stderr))
+app({words!r})
+"""
+    done = subprocess.run(
+        [sys.executable, "-c", code], capture_output=True, text=True, check=True, timeout=60
+    )
+    assert done.stderr.strip() == "[]"
+    assert done.stdout

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Annotated, Any, Union, get_args, get_origin
 
 import pytest
-import typer
+import typer.main
 from typer.testing import CliRunner
 
 from ebac import datasets
@@ -59,11 +59,12 @@ class Case:
         return f"{self.command} {self.option} {self.kind}".replace(" ", "_")
 
 
-def leaves(group: typer.Typer, path: str = "") -> Iterator[tuple[str, Any]]:
-    for one in group.registered_commands:
-        yield f"{path} {one.name}".strip(), one.callback
-    for sub in group.registered_groups:
-        yield from leaves(sub.typer_instance, f"{path} {sub.name}".strip())
+def leaves(group: Any, path: str = "") -> Iterator[tuple[str, Any]]:
+    for name, one in group.commands.items():
+        if hasattr(one, "commands"):
+            yield from leaves(one, f"{path} {name}".strip())
+        else:
+            yield f"{path} {name}".strip(), one.callback
 
 
 def plain(annotation: Any) -> Any:
@@ -92,7 +93,7 @@ def name_of(parameter: inspect.Parameter) -> tuple[str, bool]:
 
 def cases() -> Iterator[Case]:
     """Give every option's wrong values; what no option differs in, once for each command and type."""
-    for command, callback in leaves(app):
+    for command, callback in leaves(typer.main.get_command(app)):
         seen: set[tuple[str, Any]] = set()
         for parameter in inspect.signature(callback).parameters.values():
             name, argument = name_of(parameter)

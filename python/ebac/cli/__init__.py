@@ -2,32 +2,11 @@
 
 from __future__ import annotations
 
-from typing import Annotated
+from typing import Annotated, ClassVar
 
 import typer
 
-from ebac.cli import bus, demo, drive, gastroscopy, identify, live, paper, sensor, teleop, track
-from ebac.cli.bench import bench
-from ebac.cli.catalogue import laws, presets, specs, worlds
-from ebac.cli.command import Group, add
-from ebac.cli.log import log
-from ebac.cli.machine import doctor, jitter
-from ebac.cli.run import run
-from ebac.cli.studies import (
-    ablation,
-    conditions,
-    engines,
-    faults,
-    maps,
-    random_worlds,
-    shapes,
-    study,
-    tissue,
-    tune,
-    worst,
-    zwidth,
-)
-from ebac.cli.wall import wall
+from ebac.cli.by_need import GroupByNeed, Place
 
 TRY, STUDY, DATA, HARDWARE, MACHINE = (
     "Try",
@@ -37,14 +16,55 @@ TRY, STUDY, DATA, HARDWARE, MACHINE = (
     "Machine",
 )
 
+
+class Ebac(GroupByNeed):
+    """The command `ebac`."""
+
+    places: ClassVar = {
+        "wall": Place(TRY, "wall.wall:wall"),
+        "demo": Place(TRY, "demo:demo"),
+        "laws": Place(TRY, "catalogue.laws:laws"),
+        "presets": Place(TRY, "catalogue.presets:presets"),
+        "worlds": Place(TRY, "catalogue.worlds:worlds"),
+        "live": Place(TRY, "live:live"),
+        "paper": Place(TRY, "paper:paper"),
+        "study": Place(STUDY, "studies.study:study"),
+        "conditions": Place(STUDY, "studies.conditions:conditions"),
+        "ablation": Place(STUDY, "studies.ablation:ablation"),
+        "worst": Place(STUDY, "studies.worst:worst"),
+        "zwidth": Place(STUDY, "studies.zwidth:zwidth"),
+        "tune": Place(STUDY, "studies.tune:tune"),
+        "map": Place(STUDY, "studies.maps:map_"),
+        "shapes": Place(STUDY, "studies.shapes:shapes"),
+        "random-worlds": Place(STUDY, "studies.random_worlds:random_worlds"),
+        "engines": Place(STUDY, "studies.engines:engines"),
+        "tissue": Place(STUDY, "studies.tissue:tissue"),
+        "faults": Place(STUDY, "studies.faults:faults"),
+        "gastroscopy": Place(STUDY, "gastroscopy:app"),
+        "teleop": Place(STUDY, "teleop:app"),
+        "identify": Place(DATA, "identify:app"),
+        "track": Place(DATA, "track:track"),
+        "log": Place(DATA, "log.log:log"),
+        "run": Place(HARDWARE, "run.run:run", defaults="as configured"),
+        "drive": Place(HARDWARE, "drive:app"),
+        "sensor": Place(HARDWARE, "sensor:app"),
+        "bus": Place(HARDWARE, "bus:bus"),
+        "specs": Place(HARDWARE, "catalogue.specs:specs"),
+        "doctor": Place(MACHINE, "machine.doctor:doctor"),
+        "jitter": Place(MACHINE, "machine.jitter:jitter"),
+        "bench": Place(MACHINE, "bench.bench:bench"),
+    }
+
+
 app = typer.Typer(
     name="ebac",
-    cls=Group,
+    cls=Ebac,
     no_args_is_help=True,
     rich_markup_mode="markdown",
     pretty_exceptions_show_locals=False,
     context_settings={"help_option_names": ["-h", "--help"]},
 )
+Ebac.app = app
 
 
 def _version(wanted: bool) -> None:
@@ -70,37 +90,3 @@ def main(
 
     Tables show mm, N, mJ, s and Hz. Options and `--json` are in SI units throughout.
     """
-
-
-add(app, wall.wall, panel=TRY)
-add(app, demo.demo, panel=TRY)
-add(app, laws.laws, panel=TRY)
-add(app, presets.presets, panel=TRY)
-add(app, worlds.worlds, panel=TRY)
-add(app, live.live, panel=TRY)
-add(app, paper.paper, panel=TRY)
-add(app, study.study, panel=STUDY)
-add(app, conditions.conditions, panel=STUDY)
-add(app, ablation.ablation, panel=STUDY)
-add(app, worst.worst, panel=STUDY)
-add(app, zwidth.zwidth, panel=STUDY)
-add(app, tune.tune, panel=STUDY)
-add(app, maps.map_, "map", panel=STUDY)
-add(app, shapes.shapes, panel=STUDY)
-add(app, random_worlds.random_worlds, panel=STUDY)
-add(app, engines.engines, panel=STUDY)
-add(app, tissue.tissue, panel=STUDY)
-add(app, faults.faults, panel=STUDY)
-app.add_typer(gastroscopy.app, name="gastroscopy", rich_help_panel=STUDY)
-app.add_typer(teleop.app, name="teleop", rich_help_panel=STUDY)
-app.add_typer(identify.app, name="identify", rich_help_panel=DATA)
-add(app, track.track, panel=DATA)
-app.add_typer(log.log, name="log", rich_help_panel=DATA)
-add(app, run.run, panel=HARDWARE, defaults="as configured")
-app.add_typer(drive.app, name="drive", rich_help_panel=HARDWARE)
-app.add_typer(sensor.app, name="sensor", rich_help_panel=HARDWARE)
-app.add_typer(bus.bus, name="bus", rich_help_panel=HARDWARE)
-add(app, specs.specs, panel=HARDWARE)
-add(app, doctor.doctor, panel=MACHINE)
-add(app, jitter.jitter, panel=MACHINE)
-add(app, bench.bench, panel=MACHINE)
