@@ -110,6 +110,11 @@ RULES = (
         "takes 2 s of a core even with one hand; those with more options are run",
     ),
     Rule(
+        r"^ebac ablation --scenario",
+        NEVER,
+        "takes 10 s of a core even with one hand; its options are those of the ones that are run",
+    ),
+    Rule(
         r"^ebac ablation --change pull=40 ",
         NEVER,
         "takes 3 s of a core even with one hand; the one of the story has more changes",

@@ -15,6 +15,8 @@ import printed  # noqa: E402
 import rival_tables  # noqa: E402
 import tables  # noqa: E402
 
+import ebac  # noqa: E402
+
 
 def test_every_table_has_one_place_and_every_place_a_table() -> None:
     places = [name for page in tables.PAGES for name in printed.names(page)]
@@ -34,6 +36,8 @@ def test_hands_force_swing_and_energy_of_the_rivals_stand_in_one_table(
                 return [{"energy_drawn_J": 1e-3}, {"energy_drawn_J": 5e-3}]
             return [{"least_energy_J": energy} for energy in (0.0, -2e-3, 0.0, -3e-3)]
 
+    few = ebac.Operators.grid()[::20]
+    monkeypatch.setattr(ebac.Operators, "grid", lambda: few)
     laws = dict(list(rival_tables.RANGES.items())[:2])
     monkeypatch.setattr(rival_tables, "RANGES", laws)
     for name, columns in (("tuned", 9), ("tuned-cells", 8)):
