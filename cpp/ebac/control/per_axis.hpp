@@ -66,20 +66,20 @@ class PerAxis : public Replaceable<Law> {
   {
     for (Law& law : laws_) law.retune(next);
   }
-  /// Takes the gains of `next`, where it differs in nothing else; otherwise `next` takes over, without memory, and the
-  /// force passes over to it. The laws that go are left in `next`: none is freed here.
-  void adopt(std::array<Law, kMaxAxes>& next) EBAC_RT
+  /// Takes the gains of `next`, where it differs in nothing else; otherwise `next` takes over, without memory, from
+  /// the forces of the last tick. The laws that go are left in `next`: none is freed here.
+  void adopt(std::array<Law, kMaxAxes>& next, std::span<const Axis> axes) EBAC_RT
     requires std::same_as<Law, AnyLaw>
   {
     if (laws_[0].same_but_gains(next[0])) return retune(next[0]);
     std::swap(laws_, next);
-    take_over();
+    take_over_.law(axes);
   }
-  /// Another law or another world takes over.
-  void take_over() EBAC_RT
+  /// Another world takes over; `before` and `now` are its forces at the place of the last tick.
+  void meet_another(const Axes& before, const Axes& now) EBAC_RT
     requires std::same_as<Law, AnyLaw>
   {
-    take_over_.begin();
+    take_over_.world(before, now);
   }
   static std::array<Law, kMaxAxes> replacement(const Law& law)
     requires std::same_as<Law, AnyLaw>

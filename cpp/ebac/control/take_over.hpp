@@ -5,58 +5,80 @@
 
 #include "ebac/core/sample.hpp"
 #include "ebac/model/contact_force.hpp"
+#include "ebac/model/of_all.hpp"
 
 namespace ebac {
 
 /// Another law or another world takes over while a hand is in contact: the force makes no step, and the hand is not
 /// thrown out of a place that the new contact would not have let it reach.
 ///
-///   1. The law is shown a share of the contact's force, at first so much that it is the force of the last tick. The
-///      share grows by a factor e in a quarter of a second. Of a contact that is lost nothing is held back any more.
-///   2. The command passes from the force of the last tick to the law's within 50 ms, and lies between the two. What is
-///      left of the force of the last tick goes down with the contact's: behind it nothing would stop the hand.
+///   1. The law is shown a share of the contact's force: of another world as much as the world before asked for at the
+///      same place, of another law as much as the law before gave of it. The share grows by a factor e in a quarter of a
+///      second. What stores less than a millijoule throws nobody, and is shown whole; so is all after a contact is lost.
+///   2. What the command of the first tick differs by from that of the last one fades within 50 ms, and with the force
+///      of the contact: behind it nothing would stop the hand. A law without memory needs some ticks to reach its force,
+///      so of another law the difference is that of each tick, and the command lies between the two.
 class TakeOver {
  public:
-  static constexpr double kPass = 0.05;  // s
-  static constexpr double kGrow = 0.25;  // s
+  static constexpr double kPass = 0.05;    // s
+  static constexpr double kGrow = 0.25;    // s
+  static constexpr double kThrows = 1e-3;  // J
 
-  /// From the next tick on, also where an earlier one has not ended.
-  void begin() EBAC_RT {
-    begun_ = false;
-    left_ = 1;
+  /// Another law, from the next tick on; `axes` are those of the last one.
+  void law(std::span<const Axis> axes) EBAC_RT {
+    share_ = part(of_all(axes, &Axis::port, &Port::f_cmd), of_all(axes, &Axis::port, &Port::f_env));
+    begin(true);
   }
+
+  /// Another world, from the next tick on; `before` and `now` are its forces at the place of the last one.
+  void world(const Axes& before, const Axes& now) EBAC_RT {
+    share_ *= part(before, now);
+    begin(false);
+  }
+
   bool on() const EBAC_RT { return left_ > 0 || share_ < 1; }
 
   /// Before the law's step, with the forces of the last tick in `f_cmd`: the contact as the law is shown it.
   ContactForce shown(const ContactForce& contact, std::span<const Axis> axes) EBAC_RT {
-    if (begun_) {
-      go_on(contact, axes[0].port.dt);
+    first_ = !begun_;
+    if (first_) {
+      begun_ = true;
+      from_ = of_all(axes, &Axis::port, &Port::f_cmd);
+      met_ = contact.force.norm();
+      lasts_ = 1;
     } else {
-      start(contact, axes);
+      go_on(contact, axes[0].port.dt);
     }
-    ContactForce part = contact;
-    part.force *= share_;
-    part.along *= share_;
-    part.stiffness *= share_;
-    return part;
+    const double stored =
+        0.5 * contact.force.norm() * contact.depth;  // J; 0 where a world tells no depth
+    if (stored > 0) share_ = std::max(share_, std::min(1.0, kThrows / stored));
+    ContactForce shown = contact;
+    shown.force *= share_;
+    shown.along *= share_;
+    shown.stiffness *= share_;
+    return shown;
   }
 
   /// After the law's step: the command.
-  void pass(std::span<Axis> axes) const EBAC_RT {
-    for (std::size_t i = 0; i < axes.size(); ++i) {
-      double& f = axes[i].port.f_cmd;
-      f += left_ * (lasts_ * from_[static_cast<Eigen::Index>(i)] - f);
-    }
+  void pass(std::span<Axis> axes) EBAC_RT {
+    const Axes command = of_all(axes, &Axis::port, &Port::f_cmd);
+    if (another_law_ || first_) own_ = command;
+    const Axes passing = command + left_ * lasts_ * (from_ - own_);
+    for (std::size_t i = 0; i < axes.size(); ++i)
+      axes[i].port.f_cmd = passing[static_cast<Eigen::Index>(i)];
   }
 
  private:
-  void start(const ContactForce& contact, std::span<const Axis> axes) EBAC_RT {
-    begun_ = true;
-    for (std::size_t i = 0; i < axes.size(); ++i)
-      from_[static_cast<Eigen::Index>(i)] = axes[i].port.f_cmd;
-    met_ = contact.force.norm();
-    lasts_ = 1;
-    share_ = met_ > 0 ? std::clamp(from_.dot(contact.force) / (met_ * met_), 0.0, 1.0) : 1;
+  /// How much of a force another one is, along it.
+  static double part(const Axes& of, const Axes& whole) EBAC_RT {
+    const double size = whole.squaredNorm();
+    return size > 0 ? std::clamp(of.dot(whole) / size, 0.0, 1.0) : 1;
+  }
+
+  void begin(bool another_law) EBAC_RT {
+    another_law_ = another_law || (another_law_ && !begun_);
+    begun_ = false;
+    left_ = 1;
   }
 
   void go_on(const ContactForce& contact, double dt) EBAC_RT {
@@ -74,11 +96,14 @@ class TakeOver {
   static constexpr double kLeast = 0.01;  // lets a share of zero grow
 
   bool begun_ = true;
-  double left_ = 0;           // how much of the passage
+  bool first_ = false;        // whether this is the first tick
+  bool another_law_ = false;  // or else another world
+  double left_ = 0;           // how much of the difference
   double share_ = 1;          // of the contact's force
-  Axes from_ = Axes::Zero();  // N, of the tick before
-  double lasts_ = 1;          // share of it
-  double met_ = 0;            // N, of the contact in the first tick
+  Axes from_ = Axes::Zero();  // N, the command of the tick before
+  Axes own_ = Axes::Zero();   // N, the law's
+  double lasts_ = 1;          // of the contact's force in the first tick
+  double met_ = 0;            // N, that force
 };
 
 }  // namespace ebac

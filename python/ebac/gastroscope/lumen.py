@@ -61,24 +61,24 @@ class Lumen:
         wall: Solid | None = None,
     ) -> None:
         self.patient = Patient() if patient is None else patient
-        line = np.zeros((0, 3)) if points is None else np.asarray(points, dtype=float)
+        line = np.zeros((0, 3)) if points is None else np.array(points, dtype=float)
         if line.ndim != 2 or line.shape[1] != 3 or not np.isfinite(line).all():
             raise ValueError(f"Lumen.points: has the shape {line.shape}: must be (n, 3), finite")
         self._own: dict[str, Any] = {
             "points": None if points is None else line,
-            "radii": radii,
+            "radii": None if radii is None else [float(r) for r in radii],
             "wall": wall,
         }
         self.core = _Lumen(
             self.patient,
             [(float(x), float(y), float(z)) for x, y, z in line],
-            [float(r) for r in ([] if radii is None else radii)],
+            self._own["radii"] or [],
             None if wall is None else made(wall),
         )
 
     def __reduce__(self) -> tuple[Any, ...]:
         """Return what a copy is made from."""
-        return partial(Lumen, **self._own), (self.patient,)
+        return partial(type(self), **self._own), (self.patient,)
 
     def landmarks(self) -> dict[str, float]:
         """Return where its parts end, by name [m] along the lumen."""
