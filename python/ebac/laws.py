@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import copy
 import dataclasses
 import inspect
-import math
 import re
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any, ClassVar, Protocol, TypeAlias, cast, runtime_checkable
@@ -237,62 +235,6 @@ def checked(law: Any) -> CoreLaw | PythonLaw:
             ) from None
     refuse_uncopyable(law, "law")
     return law
-
-
-class KeptLaw:
-    """A law in Python as the core calls it: its first error is kept for the end of the run.
-
-    Parameters
-    ----------
-    law : PythonLaw
-        The law.
-    errors : list
-        Where its first error goes; copies share it.
-    """
-
-    def __init__(self, law: PythonLaw, errors: list[BaseException]) -> None:
-        self._law, self._errors = law, errors
-        self.observer = bool(getattr(law, "observer", False))
-
-    def step(self, port: Port) -> float:
-        """Return the force [N]; NaN after an error."""
-        if self._errors:
-            return math.nan
-        try:
-            return self._number(self._law.step(port))
-        except BaseException as error:
-            self._errors.append(error)
-            return math.nan
-
-    def _number(self, answer: Any) -> float:
-        try:
-            math.isnan(answer)  # takes what the core takes
-        except Exception:
-            step = f"{type(self._law).__name__}.step"
-            raise TypeError(
-                f"{step} returned {answer!r}: must return the force [N] of one axis, a number"
-            ) from None
-        return cast(float, answer)
-
-    def reset(self) -> None:
-        """Forget everything but the parameters."""
-        try:
-            self._law.reset()
-        except BaseException as error:
-            self._errors.append(error)
-
-    def __deepcopy__(self, memo: dict[int, Any]) -> KeptLaw:
-        """Return one with a copy of the law."""
-        return KeptLaw(copy.deepcopy(self._law, memo), self._errors)
-
-
-def law_error(errors: Sequence[BaseException]) -> Exception | None:
-    """Return what a law in Python raised in a run; an interrupt is raised again."""
-    for error in errors:
-        if not isinstance(error, Exception):
-            raise error
-        return error
-    return None
 
 
 def _by_cause(message: str, device: Device | DeviceFacts, changes: Mapping[str, Any]) -> str:

@@ -12,7 +12,8 @@ from ebac import _core
 from ebac._util.arguments import require
 from ebac._util.fault_remedies import REMEDIES
 from ebac._util.foreign_worlds import foreign
-from ebac.laws import AnyLaw, CoreLaw, KeptLaw, PythonLaw, design, law_error, law_name
+from ebac._util.kept_law import KeptLaw, law_error
+from ebac.laws import AnyLaw, CoreLaw, PythonLaw, design, law_name
 from ebac.scenario import Scenario
 from ebac.trace import Trace
 

@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 
 from ebac import _core
 from ebac._util.arguments import require
-from ebac.laws import AnyLaw, CoreLaw, KeptLaw, design, law_error, law_name
+from ebac._util.kept_law import KeptLaw, law_error
+from ebac.laws import AnyLaw, CoreLaw, design, law_name
 from ebac.logs.log import Log
 
 if TYPE_CHECKING:
