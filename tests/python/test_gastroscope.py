@@ -98,6 +98,21 @@ def test_tendons_have_slack_that_a_bend_crosses_first() -> None:
     assert slave.state.bend[0] == pytest.approx(0.25, abs=0.05)
 
 
+class Named(Lumen):
+    """A lumen of a user's own class."""
+
+
+def test_a_copy_of_a_lumen_is_what_the_lumen_was_made_from() -> None:
+    points = np.array([(-0.02 * i, 0.0, 0.0) for i in range(12)])
+    radii = [0.012] * 12
+    lumen = Named(STILL, points=points, radii=radii)
+    before = str(lumen.near([0.0, 0.01, 0.0], 5e-3))
+    points[:], radii[:] = 0, [0.02] * 12
+    again = pickle.loads(pickle.dumps(lumen))
+    assert type(again) is Named
+    assert str(again.near([0.0, 0.01, 0.0], 5e-3)) == before
+
+
 def test_a_wall_of_ones_own_is_met() -> None:
     points = [(-0.02 * i, 0.0, 0.0) for i in range(12)]
     tube = Tube(points=points, radius=[0.012] * 12)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, MutableMapping
+from collections.abc import Iterator, Mapping
 from importlib import import_module
 from typing import Any, ClassVar, NamedTuple
 
@@ -20,11 +20,11 @@ class Place(NamedTuple):
     defaults: str | None = None
 
 
-class Places(MutableMapping[str, Any]):
+class Places(Mapping[str, Any]):
     """The commands of an app by name, each made the first time it is looked up."""
 
     def __init__(self, app: typer.Typer, places: dict[str, Place]) -> None:
-        self._app, self._places = app, dict(places)
+        self._app, self._places = app, places
         self._made: dict[str, Any] = {}
 
     def __getitem__(self, name: str) -> Any:
@@ -32,18 +32,11 @@ class Places(MutableMapping[str, Any]):
             self._made[name] = self._make(name, self._places[name])
         return self._made[name]
 
-    def __setitem__(self, name: str, command: Any) -> None:
-        self._made[name] = command
-
-    def __delitem__(self, name: str) -> None:
-        del self._places[name]
-        self._made.pop(name, None)
-
     def __iter__(self) -> Iterator[str]:
-        return iter({**self._places, **self._made})
+        return iter(self._places)
 
     def __len__(self) -> int:
-        return len({**self._places, **self._made})
+        return len(self._places)
 
     def _make(self, name: str, place: Place) -> Any:
         module, _, attribute = place.at.partition(":")
@@ -65,7 +58,7 @@ class GroupByNeed(Group):
 
     def __init__(self, **given: Any) -> None:
         super().__init__(**given)
-        self.commands = Places(self.app, self.places)
+        self.commands: Any = Places(self.app, self.places)
 
     def list_commands(self, ctx: Any) -> list[str]:
         """Return all names, in the order of the help."""
