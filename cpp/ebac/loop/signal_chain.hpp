@@ -7,10 +7,10 @@
 #include "ebac/core/timing.hpp"
 #include "ebac/loop/compensation_in_flight.hpp"
 #include "ebac/loop/energy_account.hpp"
-#include "ebac/loop/of_all.hpp"
 #include "ebac/loop/state_observer.hpp"
 #include "ebac/model/device.hpp"
 #include "ebac/model/environment.hpp"
+#include "ebac/model/of_all.hpp"
 
 namespace ebac {
 

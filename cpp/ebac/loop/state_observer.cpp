@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <variant>
 
-#include "ebac/loop/of_all.hpp"
+#include "ebac/model/of_all.hpp"
 #include "ebac/model/pose.hpp"
 
 namespace ebac {
