@@ -9,7 +9,7 @@
 
 #include "ebac/control/any_law.hpp"
 #include "ebac/control/eased_frame.hpp"
-#include "ebac/control/force_blend.hpp"
+#include "ebac/control/take_over.hpp"
 #include "ebac/control/shared_account.hpp"
 #include "ebac/control/turned_ports.hpp"
 #include "ebac/core/controller.hpp"
