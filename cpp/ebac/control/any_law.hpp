@@ -46,7 +46,7 @@ class LawObject {
   virtual double surplus() const EBAC_RT { return 0; }
   virtual void settle(double) EBAC_RT {}
   /// Its direction has turned, and with it the force of the last tick has changed by so much [N].
-  virtual void turn(double) EBAC_RT {}
+  virtual void shift(double) EBAC_RT {}
   /// How long its energy account has held its force back [s]; 0 for a law without one.
   virtual double starved() const EBAC_RT = 0;
   /// Whether its energy account is low with the observer.
@@ -101,7 +101,7 @@ class AnyLaw {
   void begin_account() EBAC_RT { law_->begin_account(); }
   double surplus() const EBAC_RT { return law_->surplus(); }
   void settle(double surplus) EBAC_RT { law_->settle(surplus); }
-  void turn(double change) EBAC_RT { law_->turn(change); }
+  void shift(double change) EBAC_RT { law_->shift(change); }
   double starved() const EBAC_RT { return law_->starved(); }
   bool drained() const EBAC_RT { return law_->drained(); }
   bool observed() const EBAC_RT { return law_->observed(); }

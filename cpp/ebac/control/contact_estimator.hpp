@@ -34,7 +34,7 @@ class ContactEstimator {
   }
 
   /// The forces seen so far have changed by `change` [N] without a motion.
-  void turn(double change) EBAC_RT {
+  void shift(double change) EBAC_RT {
     if (last_env_ == 0) return;
     last_env_ += change;
     here_.force += change;

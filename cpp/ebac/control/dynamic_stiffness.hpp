@@ -53,7 +53,7 @@ class DynamicStiffness {
   }
 
   /// The force has changed by `change` [N] without a motion.
-  void turn(double change) EBAC_RT {
+  void shift(double change) EBAC_RT {
     slow_ += change;
     slower_ += change;
   }

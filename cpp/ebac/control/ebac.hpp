@@ -71,9 +71,9 @@ class Ebac {
   double surplus() const EBAC_RT { return shared_.ledger.surplus(); }
   void settle(double surplus) EBAC_RT { shared_.ledger.settle(surplus); }
   /// The direction has turned, and with it the force of the last tick has changed by `change` [N].
-  void turn(double change) EBAC_RT {
-    encoder_.turn(change);
-    observer_.turn(change);
+  void shift(double change) EBAC_RT {
+    encoder_.shift(change);
+    observer_.shift(change);
     if (shared_.state.f_d != 0) shared_.state.f_d += change;
   }
   void retune(const Ebac& next) EBAC_RT {

@@ -54,7 +54,7 @@ class EbacByEncoder {
   }
 
   /// The force of the last tick has changed by `change` [N], as the direction has turned.
-  void turn(double change) EBAC_RT { contact_.turn(change); }
+  void shift(double change) EBAC_RT { contact_.shift(change); }
 
   /// Stiffness at which the last contact can have stored energy [N/m].
   double stored_at() const EBAC_RT { return contact_.stored_at(); }

@@ -38,7 +38,7 @@ class EbacByObserver {
   }
 
   /// The force of the last tick has changed by `change` [N], as the direction has turned.
-  void turn(double change) EBAC_RT { force_.turn(change); }
+  void shift(double change) EBAC_RT { force_.shift(change); }
 
   /// Nothing is known of the contact.
   void forget() EBAC_RT { force_.forget(); }

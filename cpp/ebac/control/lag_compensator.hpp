@@ -110,9 +110,9 @@ class LagCompensator {
   }
 
   /// The direction has turned, and with it the force of the last tick has changed by `change` [N].
-  void turn(double change) EBAC_RT {
+  void shift(double change) EBAC_RT {
     if (last_env_ == 0) return;
-    contact_.turn(change);
+    contact_.shift(change);
     last_env_ += change;
     state_.f_d += change;
   }

@@ -34,8 +34,8 @@ class LawOf final : public LawObject {
   void settle(double surplus) EBAC_RT override {
     if constexpr (requires { law_.settle(surplus); }) law_.settle(surplus);
   }
-  void turn(double change) EBAC_RT override {
-    if constexpr (requires { law_.turn(change); }) law_.turn(change);
+  void shift(double change) EBAC_RT override {
+    if constexpr (requires { law_.shift(change); }) law_.shift(change);
   }
   double starved() const EBAC_RT override { return starved_of(law_); }
   bool drained() const EBAC_RT override { return drained_of(law_); }

@@ -68,9 +68,9 @@ class ObservedForce {
   }
 
   /// The force of the last tick has changed by `change` [N], as the direction has turned.
-  void turn(double change) EBAC_RT {
-    slope_.turn(change);
-    dynamic_.turn(change);
+  void shift(double change) EBAC_RT {
+    slope_.shift(change);
+    dynamic_.shift(change);
   }
 
   /// Nothing is known of the contact.

@@ -61,9 +61,9 @@ class PerAxis : public Replaceable<Law> {
     } else if (contact.shared) {
       const ContactForce eased = frame_.ease(contact, axes[0].port.dt);
       account_.share(laws_, axes.size(), eased);
-      if constexpr (requires(double change) { laws_[0].turn(change); }) {
+      if constexpr (requires(double change) { laws_[0].shift(change); }) {
         for (std::size_t i = 0; i < axes.size(); ++i)
-          laws_[i].turn(frame_.turned()[static_cast<Eigen::Index>(i)]);
+          laws_[i].shift(frame_.turned()[static_cast<Eigen::Index>(i)]);
       }
       turned_.step(axes, eased, delay, ask);
     } else {

@@ -20,7 +20,7 @@ class StaticSlope {
   double damping() const EBAC_RT { return surely_; }  // N s/m, what the world's damping surely is
 
   /// The last force has changed by `change` [N] without a motion.
-  void turn(double change) EBAC_RT {
+  void shift(double change) EBAC_RT {
     if (force_ != 0) force_ += change;
   }
   void forget() EBAC_RT { *this = StaticSlope(least_); }
