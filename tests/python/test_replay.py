@@ -58,22 +58,25 @@ def test_a_force_sensor_that_saturates_replays_to_the_bit(tmp_path: Path) -> Non
 
 
 @pytest.mark.parametrize(
-    ("sensor", "told"),
+    "sensor",
     [
-        (ebac.ForceSensor(period=1.3e-3, noise=0.03), False),
-        (ebac.ForceSensor(stops_at=0.1), False),
-        (ebac.ForceSensor(stops_at=0.1, repeats=True), True),
+        ebac.ForceSensor(period=1.3e-3, noise=0.03),
+        ebac.ForceSensor(period=3e-3, delay=2e-3, stops_at=0.1, resumes_at=0.2),
+        ebac.ForceSensor(stops_at=0.1, resumes_at=0.2, disconnects=True),
+        ebac.ForceSensor(stops_at=0.1, repeats=True),
     ],
-    ids=["slow", "stops", "repeats"],
+    ids=["slow", "slow and stops", "disconnects", "repeats"],
 )
-def test_forces_of_unknown_age_are_warned_of(sensor: ebac.ForceSensor, told: bool) -> None:
-    recorded = ebac.simulate(ebac.Scenario(seconds=0.3, device=ebac.Device(sensor=sensor)), "ebac")
-    if told:
-        assert_same_commands(ebac.replay(recorded, "ebac"), recorded)
-    else:
-        with pytest.warns(UserWarning, match="age of its force"):
-            replayed = ebac.replay(recorded, "ebac")
-        assert (replayed["f_cmd"] != recorded["f_cmd"]).any()
+@pytest.mark.parametrize("through", [None, "can"])
+@pytest.mark.parametrize("observer", [True, False])
+def test_forces_that_are_not_new_in_each_tick_replay_to_the_bit(
+    sensor: ebac.ForceSensor, through: Any, observer: bool
+) -> None:
+    scenario = ebac.Scenario(
+        seconds=0.4, jitter=0.3, device=ebac.Device(sensor=sensor), observer=observer
+    )
+    recorded = ebac.simulate(scenario, "ebac", through=through)
+    assert_same_commands(ebac.replay(recorded, "ebac"), recorded)
 
 
 def test_through_a_log_on_disk_and_a_bus(tmp_path: Path) -> None:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import warnings
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -14,6 +13,7 @@ from ebac._util.arguments import require
 from ebac._util.kept_law import KeptLaw, law_error
 from ebac.laws import AnyLaw, CoreLaw, design, law_name
 from ebac.logs.log import Log
+from ebac.logs.sensor_rows import force_age, force_status
 
 if TYPE_CHECKING:
     from ebac._core import Device
@@ -22,8 +22,6 @@ if TYPE_CHECKING:
 
 #: The state of a loop in which the law acts, in the column `state` of a log that has one.
 RUN = 2
-#: A force sensor that reports an error, as the loop knows it.
-ERROR = 3
 
 #: What a replay reads of each axis: the name of the argument, the column.
 _EACH = {
@@ -48,9 +46,8 @@ def replay(
     Encoder counts, currents applied, measured forces and the time of each tick come from the log; estimation,
     kinematics, virtual world, law and limits are those of the loop. The law that was recorded, with its parameters,
     gives the recorded commands to the bit, for a log from its first tick on without gaps (to rounding where static
-    compensation has a soft start). At a gap the time of the tick is that since the row before. A simulated trace does
-    not have the age of its force: with a sensor that has a `period` or that stops, the observer sees another age, and
-    the replay warns.
+    compensation has a soft start). At a gap the time of the tick is that since the row before. The age of a
+    simulated force is computed from the sensor's `period` and stops.
 
     **Limits of a replay**: nothing the law commands reaches hand or device. Whether a contact is stable, where
     it would rest, and how the hand would have answered stay unknown; energies are those of the recorded force along
@@ -90,7 +87,6 @@ def replay(
             "replay: the log has no scenario, so device and virtual world are unknown; give scenario=..."
         )
     _check(recorded)
-    _warn_of_unknown_ages(recorded)
     source = _source(recorded, scenario.device)
     source.observer = scenario.designed_observer()
     finished = design(law, scenario.device, scenario.known_timing, **changes)
@@ -139,19 +135,6 @@ def _check(recorded: Trace) -> None:
         raise ValueError("replay: the log has no rows")
 
 
-def _warn_of_unknown_ages(recorded: Trace) -> None:
-    """Warn of forces that were not new in each tick, where no column has their age."""
-    if recorded.scenario is None or "ft.age" in recorded:
-        return
-    sensor = recorded.scenario.device.sensor
-    if sensor.period > 0 or (np.isfinite(sensor.stops_at) and not sensor.repeats):
-        warnings.warn(
-            "replay: the trace does not have the age of its force, which was not new in each tick (its simulated "
-            "sensor has a period or stops); a law on the observer gives other commands than were recorded",
-            stacklevel=3,
-        )
-
-
 def _source(recorded: Trace, device: Device) -> _core.ReplayLog:
     t = recorded["t"]
     dt = recorded.axis("dt").copy()
@@ -165,11 +148,8 @@ def _source(recorded: Trace, device: Device) -> _core.ReplayLog:
         dt=dt,
         lateness=recorded["lateness"],
         counts_age=_counts_age(recorded, dt),
-        force_age=_first_axis(recorded, "ft.age"),
-        # An observer took note of it; the log has no other column that does.
-        force_status=np.where(
-            _first_axis(recorded, "est.fallback") == int(_core.Fallback.FORCE_STATUS), ERROR, 0
-        ).astype(np.uint32),
+        force_age=force_age(recorded, dt),
+        force_status=force_status(recorded, dt),
         # What a stage of the loop found, the loop finds again, or not: that is for the new law to show.
         fault=np.where(fault >= int(_core.Fault.DEVICE), fault, 0),
         gain=_gain(recorded, device),
@@ -206,13 +186,6 @@ def _counts_age(recorded: Trace, dt: NDArray[np.float64]) -> NDArray[np.float64]
         before = ages[row - 1, axis] if ticks[row, axis] > 1 and row > 0 else 0.0
         ages[row, axis] = before + dt[row]
     return ages
-
-
-def _first_axis(recorded: Trace, column: str) -> NDArray[np.float64]:
-    """Return a column that is the same on every axis; zeros where the log has none."""
-    if column not in recorded:
-        return np.zeros(len(recorded))
-    return _per_axis(recorded, column)[:, 0].astype(float)
 
 
 def _per_axis(recorded: Trace, column: str) -> NDArray[Any]:
