@@ -5,6 +5,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+import ebac
 from ebac.live.session import Session
 
 CHANGES = [
@@ -37,6 +38,70 @@ def test_ebac_that_takes_over_in_contact_rests_where_it_would_have(
     place, swing = rest(before, wanted)
     assert abs(place - rest(wanted)[0]) < 6e-5
     assert swing < 2.5e-4
+
+
+@pytest.mark.parametrize("observer", [True, False])
+@pytest.mark.parametrize(
+    ("before", "after"),
+    [
+        ({"law": "eba", "stiffness": 2e4}, {"law": "ebac"}),
+        ({"law": "eba", "stiffness": 2e4}, {"law": "tca-damped"}),
+        ({"law": "direct", "stiffness": 2e3}, {"law": "ebac", "stiffness": 2e4}),
+        ({"law": "ebac", "stiffness": 1e3}, {"stiffness": 2e4}),
+    ],
+)
+def test_a_contact_that_takes_over_throws_nothing(
+    tmp_path: Path, before: dict[str, object], after: dict[str, object], observer: bool
+) -> None:
+    scenario = ebac.Scenario(device=ebac.Device(sensor=ebac.ForceSensor(noise=0.03)))
+    with Session(scenario, virtual=True, paced=False, folder=tmp_path) as session:
+        session.change(observer=observer, **before)
+        session.start()
+        session.advance(2.0)
+        assert not session.change(**after)
+        session.advance(1.5)
+        assert session.fault == 0
+        tail = session.run.tail(1500)  # type: ignore[union-attr]
+    force, place, speed = (tail.axis(name, 0) for name in ("f_cmd", "true.x", "true.v"))
+    at_rest = np.abs(np.diff(force[-300:])).max()
+    assert place[0] > 5e-3
+    assert place[-1] < 1e-3
+    # N a tick; it was 5 to 22 N more
+    assert np.abs(np.diff(force)).max() < at_rest + (0.5 if observer else 2.5)
+    assert np.abs(speed).max() < 0.1  # m/s; it was 0.2 to 0.5
+
+
+def test_a_wall_that_grows_is_no_steeper_one_to_a_coupling(tmp_path: Path) -> None:
+    with Session(virtual=True, paced=False, folder=tmp_path) as session:
+        session.change(law="virtual-coupling", stiffness=2e3)
+        session.start()
+        session.advance(2.0)
+        assert not session.change(stiffness=2e4)
+        session.advance(1.5)
+        tail = session.run.tail(1500)  # type: ignore[union-attr]
+    force, speed = tail.axis("f_cmd", 0), tail.axis("true.v", 0)
+    assert np.abs(np.diff(force)).max() < 3  # N a tick; it was 37
+    assert np.abs(speed).max() < 0.1  # m/s; it was 0.6
+
+
+@pytest.mark.parametrize("law", ["ebac", "eba"])
+@pytest.mark.parametrize("observer", [True, False])
+def test_a_slider_that_moves_as_the_hand_comes_in_takes_no_wall_away(
+    tmp_path: Path, law: str, observer: bool
+) -> None:
+    def deepest(*, moved: bool) -> float:
+        with Session(virtual=True, paced=False, folder=tmp_path) as session:
+            session.change(observer=observer, law=law, stiffness=2e4)
+            session.start()
+            session.advance(0.08)
+            for step in range(125):
+                if moved:
+                    session.change(stiffness=2e4 + 10 * (step % 2))
+                session.advance(0.016)
+            assert session.fault == 0
+            return float(session.run.tail(2000).axis("true.x", 0).max())  # type: ignore[union-attr]
+
+    assert deepest(moved=True) < deepest(moved=False) + 1e-3  # m; 8 to 24 mm with the last command
 
 
 def test_a_world_around_the_handle_brings_it_out(tmp_path: Path) -> None:

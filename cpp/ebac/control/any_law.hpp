@@ -45,7 +45,8 @@ class LawObject {
   /// What its energy account, if it has one, holds beyond its reserve [J], and another such amount for it.
   virtual double surplus() const EBAC_RT { return 0; }
   virtual void settle(double) EBAC_RT {}
-  /// Its direction has turned, and with it the force of the last tick has changed by so much [N].
+  /// The force of the last tick has changed by so much [N] without a motion: its direction has turned, or a part of the
+  /// contact's force that is shown to the law has grown.
   virtual void shift(double) EBAC_RT {}
   /// How long its energy account has held its force back [s]; 0 for a law without one.
   virtual double starved() const EBAC_RT = 0;

@@ -70,11 +70,12 @@ class Ebac {
   /// What the account holds beyond its reserve [J], and another such amount for it.
   double surplus() const EBAC_RT { return shared_.ledger.surplus(); }
   void settle(double surplus) EBAC_RT { shared_.ledger.settle(surplus); }
-  /// The direction has turned, and with it the force of the last tick has changed by `change` [N].
+  /// The force of the last tick has changed by `change` [N] without a motion.
   void shift(double change) EBAC_RT {
     encoder_.shift(change);
     observer_.shift(change);
-    if (shared_.state.f_d != 0) shared_.state.f_d += change;
+    double& f_d = shared_.state.f_d;
+    if (f_d != 0) f_d = f_d > 0 ? std::max(f_d + change, 0.0) : std::min(f_d + change, 0.0);
   }
   void retune(const Ebac& next) EBAC_RT {
     shared_.params = next.params();

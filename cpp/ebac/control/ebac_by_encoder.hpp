@@ -53,7 +53,7 @@ class EbacByEncoder {
     recovery_ = next.recovery_;
   }
 
-  /// The force of the last tick has changed by `change` [N], as the direction has turned.
+  /// The force of the last tick has changed by `change` [N] without a motion.
   void shift(double change) EBAC_RT { contact_.shift(change); }
 
   /// Stiffness at which the last contact can have stored energy [N/m].

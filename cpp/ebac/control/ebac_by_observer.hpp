@@ -37,7 +37,7 @@ class EbacByObserver {
     return shared.reserve_at_rest() > shared.params.observed_reserve;
   }
 
-  /// The force of the last tick has changed by `change` [N], as the direction has turned.
+  /// The force of the last tick has changed by `change` [N] without a motion.
   void shift(double change) EBAC_RT { force_.shift(change); }
 
   /// Nothing is known of the contact.

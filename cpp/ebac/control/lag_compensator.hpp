@@ -109,7 +109,7 @@ class LagCompensator {
     return command;
   }
 
-  /// The direction has turned, and with it the force of the last tick has changed by `change` [N].
+  /// The force of the last tick has changed by `change` [N] without a motion.
   void shift(double change) EBAC_RT {
     if (last_env_ == 0) return;
     contact_.shift(change);

@@ -67,7 +67,7 @@ class ObservedForce {
     return force;
   }
 
-  /// The force of the last tick has changed by `change` [N], as the direction has turned.
+  /// The force of the last tick has changed by `change` [N] without a motion.
   void shift(double change) EBAC_RT {
     slope_.shift(change);
     dynamic_.shift(change);

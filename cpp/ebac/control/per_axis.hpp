@@ -9,8 +9,8 @@
 
 #include "ebac/control/any_law.hpp"
 #include "ebac/control/eased_frame.hpp"
-#include "ebac/control/take_over.hpp"
 #include "ebac/control/shared_account.hpp"
+#include "ebac/control/take_over.hpp"
 #include "ebac/control/turned_ports.hpp"
 #include "ebac/core/controller.hpp"
 
@@ -48,40 +48,17 @@ class PerAxis : public Replaceable<Law> {
 
   template <std::size_t N>
   void step(std::span<Axis, N> axes, const ContactForce& contact) EBAC_RT {
-    const auto ask = [this](std::size_t i, const Port& port, double misplaced) EBAC_RT {
-      Law& law = laws_[i];
-      if constexpr (requires { law.settle(law.surplus()); }) {
-        if (misplaced != 0) law.settle(law.surplus() + misplaced);
-      }
-      return law.step(port);
-    };
-    const int delay = laws_[0].timing().delay;
-    if (N == 1 || axes.size() == 1) {
-      turned_.step(axes, contact, delay, ask);
-    } else if (contact.shared) {
-      const ContactForce eased = frame_.ease(contact, axes[0].port.dt);
-      account_.share(laws_, axes.size(), eased);
-      if constexpr (requires(double change) { laws_[0].shift(change); }) {
-        for (std::size_t i = 0; i < axes.size(); ++i)
-          laws_[i].shift(frame_.turned()[static_cast<Eigen::Index>(i)]);
-      }
-      turned_.step(axes, eased, delay, ask);
-    } else {
-      if (frame_.turns(contact)) account_.share(laws_, axes.size(), contact);
-      turned_.step(axes, frame_.follow(contact), delay, ask);
-    }
     if constexpr (std::same_as<Law, AnyLaw>) {
-      if (blend_.step(axes)) {
-        for (Law& law : laws_) law.begin_account();
-      }
+      if (take_over_.on()) return step_taking_over(axes, contact);
     }
+    step_laws(axes, contact);
   }
   void reset() EBAC_RT {
     for (Law& law : laws_) law.reset();
     turned_ = {};
     frame_ = {};
     account_ = {};
-    blend_ = {};
+    take_over_ = {};
   }
   /// Takes the gains of `next`; the memory and the device parameters of the law stay.
   void retune(const Law& next) EBAC_RT
@@ -89,20 +66,20 @@ class PerAxis : public Replaceable<Law> {
   {
     for (Law& law : laws_) law.retune(next);
   }
-  /// Takes the gains of `next`, where it differs in nothing else; otherwise `next` takes over, without memory, and its
-  /// force is blended in. The laws that go are left in `next`: none is freed here.
-  void adopt(std::array<Law, kMaxAxes>& next) EBAC_RT
+  /// Takes the gains of `next`, where it differs in nothing else; otherwise `next` takes over, without memory, from
+  /// the forces of the last tick. The laws that go are left in `next`: none is freed here.
+  void adopt(std::array<Law, kMaxAxes>& next, std::span<const Axis> axes) EBAC_RT
     requires std::same_as<Law, AnyLaw>
   {
     if (laws_[0].same_but_gains(next[0])) return retune(next[0]);
     std::swap(laws_, next);
-    blend();
+    take_over_.law(axes);
   }
-  /// The force goes on from that of the last tick, and the difference fades out: another law, another world.
-  void blend() EBAC_RT
+  /// Another world takes over; `before` and `now` are its forces at the place of the last tick.
+  void meet_another(const Axes& before, const Axes& now) EBAC_RT
     requires std::same_as<Law, AnyLaw>
   {
-    blend_.begin();
+    take_over_.world(before, now);
   }
   static std::array<Law, kMaxAxes> replacement(const Law& law)
     requires std::same_as<Law, AnyLaw>
@@ -127,11 +104,65 @@ class PerAxis : public Replaceable<Law> {
   }
 
  private:
+  template <std::size_t N>
+  void step_laws(std::span<Axis, N> axes, const ContactForce& contact) EBAC_RT {
+    const auto ask = [this](std::size_t i, const Port& port, double misplaced) EBAC_RT {
+      Law& law = laws_[i];
+      if constexpr (requires { law.settle(law.surplus()); }) {
+        if (misplaced != 0) law.settle(law.surplus() + misplaced);
+      }
+      return law.step(port);
+    };
+    const int delay = laws_[0].timing().delay;
+    if (N == 1 || axes.size() == 1) {
+      turned_.step(axes, contact, delay, ask);
+    } else if (contact.shared) {
+      const ContactForce eased = frame_.ease(contact, axes[0].port.dt);
+      account_.share(laws_, axes.size(), eased);
+      if constexpr (requires(double change) { laws_[0].shift(change); }) {
+        for (std::size_t i = 0; i < axes.size(); ++i)
+          laws_[i].shift(frame_.turned()[static_cast<Eigen::Index>(i)]);
+      }
+      turned_.step(axes, eased, delay, ask);
+    } else {
+      if (frame_.turns(contact)) account_.share(laws_, axes.size(), contact);
+      turned_.step(axes, frame_.follow(contact), delay, ask);
+    }
+  }
+
+  /// The energy of a contact that was changed from outside has come from nobody's hand: accounts begin anew with it. Nor
+  /// did a motion change the force.
+  [[gnu::noinline]] void step_taking_over(std::span<Axis> axes, const ContactForce& contact) EBAC_RT
+    requires std::same_as<Law, AnyLaw>
+  {
+    const ContactForce shown = take_over_.shown(contact, axes);
+    shift(axes.size(), contact, take_over_.changed());
+    show(axes, shown);
+    step_laws(axes, shown);
+    show(axes, contact);
+    take_over_.pass(axes);
+    if (!take_over_.gave()) return;
+    for (Law& law : laws_) law.begin_account();
+  }
+  /// A force that was shown has changed by `change` [N] without a motion.
+  void shift(std::size_t axes, const ContactForce& contact, const Axes& change) EBAC_RT
+    requires std::same_as<Law, AnyLaw>
+  {
+    if (axes == 1) return laws_[0].shift(change[0]);
+    const Axes along = (contact.shared ? frame_.directions() : contact.frame) * change;
+    for (std::size_t i = 0; i < axes; ++i) laws_[i].shift(along[static_cast<Eigen::Index>(i)]);
+  }
+  static void show(std::span<Axis> axes, const ContactForce& contact) EBAC_RT {
+    for (std::size_t i = 0; i < axes.size(); ++i)
+      axes[i].port.f_env = contact.force[static_cast<Eigen::Index>(i)];
+  }
+
   std::array<Law, kMaxAxes> laws_;
   TurnedPorts turned_{};
   EasedFrame frame_{};
   SharedAccount account_{};
-  [[no_unique_address]] std::conditional_t<std::same_as<Law, AnyLaw>, ForceBlend, Nothing> blend_{};
+  [[no_unique_address]] std::conditional_t<std::same_as<Law, AnyLaw>, TakeOver, Nothing>
+      take_over_{};
 };
 
 }  // namespace ebac

@@ -1,46 +1,137 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <span>
 
 #include "ebac/core/sample.hpp"
+#include "ebac/model/contact_force.hpp"
+#include "ebac/model/of_all.hpp"
 
 namespace ebac {
 
-/// Takes the step out of the force where one law or world follows another: the difference in the first tick fades out.
-/// The energy account of a law sees it as any other force, in what acted, and begins anew when it has faded out.
-class ForceBlend {
+/// Another law or another world takes over while a hand is in contact: the force makes no step, and the hand is not
+/// thrown out of a place that the new contact would not have let it reach.
+///
+///   1. The law is shown a share of the contact's force: of another world as much as the world before asked for at the
+///      same place, of another law as much as the law before gave of it. The share grows by a factor e in a quarter of a
+///      second. What stores less than a millijoule, or is a small force, throws nobody and is shown whole; so is all
+///      after a contact is lost. To the law none of this is a motion: what it remembers of the force changes with it.
+///   2. What the command of the first tick differs by from that of the last one fades within 50 ms, and with the force
+///      of the contact: behind it nothing would stop the hand. A law without memory needs some ticks to reach its force,
+///      so of another law the difference is that of each tick, and the command lies between the two.
+class TakeOver {
  public:
-  static constexpr double kFade = 0.05;  // s
+  static constexpr double kPass = 0.05;    // s
+  static constexpr double kGrow = 0.25;    // s
+  static constexpr double kThrows = 1e-3;  // J
+  static constexpr double kSmall = 3.5;    // N, above what the search for signs pushes with
 
-  /// From the next tick on. What is left of an earlier one is part of the force that acts, and so of the difference.
-  void begin() EBAC_RT { share_ = kStart; }
+  /// Another law, from the next tick on; `axes` are those of the last one.
+  void law(std::span<const Axis> axes) EBAC_RT {
+    share_ = part(of_all(axes, &Axis::port, &Port::f_cmd), of_all(axes, &Axis::port, &Port::f_env));
+    before_ = now_ = Axes::Zero();
+    begin(true);
+  }
 
-  /// After the law's step, with the force of the tick before in `f_cmd` of the last one. Returns whether it ended now.
-  template <std::size_t N>
-  bool step(std::span<Axis, N> axes) EBAC_RT {
-    const bool fading = share_ > 0;
-    if (fading) fade(axes);
-    for (std::size_t i = 0; i < axes.size(); ++i) before_[i] = axes[i].port.f_cmd;
-    return fading && share_ == 0;
+  /// Another world, from the next tick on; `before` and `now` are its forces at the place of the last one.
+  void world(const Axes& before, const Axes& now) EBAC_RT {
+    const bool shown = begun_ || !another_law_;  // or else the law has been given no force yet
+    before_ = shown ? Axes(share_ * before) : Axes::Zero();
+    now_ = shown ? now : Axes::Zero();
+    share_ *= part(before, now);
+    begin(false);
+  }
+
+  bool on() const EBAC_RT { return left_ > 0 || share_ < 1; }
+  /// Whether the contact has come by itself, without a hand's work, until this tick.
+  bool gave() const EBAC_RT { return share_ < 1 || left_ == 0; }
+
+  /// Before the law's step, with the forces of the last tick in `f_cmd`: the contact as the law is shown it.
+  ContactForce shown(const ContactForce& contact, std::span<const Axis> axes) EBAC_RT {
+    first_ = !begun_;
+    if (first_) {
+      meet(contact, axes);
+      changed_ = share_ * now_ - before_;
+    } else {
+      const double before = share_;
+      go_on(contact, axes[0].port.dt);
+      changed_ = (share_ - before) * contact.force;
+    }
+    ContactForce shown = contact;
+    shown.force *= share_;
+    shown.along *= share_;
+    shown.stiffness *= share_;
+    return shown;
+  }
+
+  /// By how much the force that is shown has changed without a motion [N].
+  const Axes& changed() const EBAC_RT { return changed_; }
+
+  /// After the law's step: the command.
+  void pass(std::span<Axis> axes) EBAC_RT {
+    const Axes command = of_all(axes, &Axis::port, &Port::f_cmd);
+    if (another_law_ || first_) own_ = command;
+    const Axes passing = command + left_ * lasts_ * (from_ - own_);
+    for (std::size_t i = 0; i < axes.size(); ++i)
+      axes[i].port.f_cmd = passing[static_cast<Eigen::Index>(i)];
   }
 
  private:
-  static constexpr double kStart = 2;  // above 1: the difference is not known yet
-
-  void fade(std::span<Axis> axes) EBAC_RT {
-    const bool first = share_ == kStart;
-    share_ = first ? 1.0 : std::max(0.0, share_ - axes[0].port.dt / kFade);
-    for (std::size_t i = 0; i < axes.size(); ++i) {
-      if (first) difference_[i] = before_[i] - axes[i].port.f_cmd;
-      axes[i].port.f_cmd += share_ * difference_[i];
-    }
+  /// How much of a force another one is, along it.
+  static double part(const Axes& of, const Axes& whole) EBAC_RT {
+    const double size = whole.squaredNorm();
+    return size > 0 ? std::clamp(of.dot(whole) / size, 0.0, 1.0) : 1;
   }
 
-  double share_ = 0;
-  std::array<double, kMaxAxes> difference_{};  // N
-  std::array<double, kMaxAxes> before_{};      // N
+  /// The share of a contact that throws nobody.
+  static double harmless(const ContactForce& contact) EBAC_RT {
+    const double size = contact.force.norm();
+    const double stored = 0.5 * size * contact.depth;  // J; 0 where a world tells no depth
+    const double by_force = size > kSmall ? kSmall / size : 1;
+    return stored > 0 ? std::max(by_force, std::min(1.0, kThrows / stored)) : by_force;
+  }
+
+  void begin(bool another_law) EBAC_RT {
+    another_law_ = another_law || (another_law_ && !begun_);
+    begun_ = false;
+    left_ = 1;
+  }
+
+  void meet(const ContactForce& contact, std::span<const Axis> axes) EBAC_RT {
+    begun_ = true;
+    from_ = of_all(axes, &Axis::port, &Port::f_cmd);
+    met_ = contact.force.norm();
+    lasts_ = 1;
+    share_ = std::max(share_, harmless(contact));
+  }
+
+  void go_on(const ContactForce& contact, double dt) EBAC_RT {
+    const double size = contact.force.norm();
+    if (size == 0) share_ = 1;
+    if (size == 0 && met_ > 0) {  // it is lost, and with it the force before
+      left_ = 0;
+      return;
+    }
+    left_ = std::max(0.0, left_ - dt / kPass);
+    lasts_ = size < met_ ? size / met_ : 1;
+    share_ = std::min(1.0, share_ + (share_ + kLeast) * dt / kGrow);
+    share_ = std::max(share_, harmless(contact));
+  }
+
+  static constexpr double kLeast = 0.01;  // lets a share of zero grow
+
+  bool begun_ = true;
+  bool first_ = false;           // whether this is the first tick
+  bool another_law_ = false;     // or else another world
+  double left_ = 0;              // how much of the difference
+  double share_ = 1;             // of the contact's force
+  Axes from_ = Axes::Zero();     // N, the command of the tick before
+  Axes own_ = Axes::Zero();      // N, the law's
+  Axes before_ = Axes::Zero();   // N, shown of the world before
+  Axes now_ = Axes::Zero();      // N, of the world at the same place
+  Axes changed_ = Axes::Zero();  // N
+  double lasts_ = 1;             // of the contact's force in the first tick
+  double met_ = 0;               // N, that force
 };
 
 }  // namespace ebac

@@ -165,7 +165,7 @@ class Loop {
 
   /// Not part of the tick's one function: a simulation has no updates.
   [[gnu::noinline]] void take(ParameterUpdates<Law>& updates) EBAC_RT {
-    updates.apply(sample_.tick, law_, chain_, device_);
+    updates.apply(sample_.tick, law_, chain_, device_, axes_in_use(sample_), sample_.t);
   }
 
   void restart() EBAC_RT {

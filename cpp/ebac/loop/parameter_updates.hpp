@@ -4,11 +4,14 @@
 #include <atomic>
 #include <concepts>
 #include <cstdint>
+#include <span>
 #include <type_traits>
 
 #include "ebac/core/realtime.hpp"
+#include "ebac/core/sample.hpp"
 #include "ebac/loop/mailbox.hpp"
 #include "ebac/model/environment.hpp"
+#include "ebac/model/of_all.hpp"
 
 namespace ebac {
 
@@ -106,12 +109,14 @@ class ParameterUpdates {
   bool stop_asked() const EBAC_RT { return stop_.load(std::memory_order_acquire); }
   const AppliedUpdates& applied() const EBAC_RT { return applied_; }
 
-  /// Called by the loop: passes every new value to `law`, `chain` or `device`.
+  /// Called by the loop: passes every new value to `law`, `chain` or `device`; `axes` and `t` are those of the last
+  /// tick.
   template <class AnyLaw, class Chain, class Device>
-  void apply(std::int64_t tick, AnyLaw& law, Chain& chain, Device& device) EBAC_RT {
-    if constexpr (requires(Sent& s) { law.adopt(s); }) {
+  void apply(std::int64_t tick, AnyLaw& law, Chain& chain, Device& device, std::span<Axis> axes,
+             double t) EBAC_RT {
+    if constexpr (requires(Sent& s) { law.adopt(s, axes); }) {
       if (auto* message = law_.take()) {
-        law.adopt(message->value);
+        law.adopt(message->value, axes);
         chain.act(law.observed());
         applied_.add({tick, message->serial, UpdateOf::kLaw});
       }
@@ -122,8 +127,10 @@ class ParameterUpdates {
       }
     }
     if (const auto* message = world_.take()) {
+      const Axes before = of_all(axes, &Axis::port, &Port::f_env);
       chain.change(message->value);
-      if constexpr (requires { law.blend(); }) law.blend();
+      if constexpr (requires { law.meet_another(before, before); })
+        law.meet_another(before, chain.contact(t, axes).force);
       applied_.add({tick, message->serial, UpdateOf::kEnvironment});
     }
     if constexpr (requires { device.aim(std::size_t{}, 0.0); }) {
