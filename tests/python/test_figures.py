@@ -311,7 +311,8 @@ def test_long_names_of_laws_leave_room_for_the_table(
     conditions: list[str], width: str | None, tmp_path: Path
 ) -> None:
     laws = ["lag-compensator-tuned-observer", "tca-damped-tuned-observer", "ebac"]
-    few = study(Operators.grid()[:1], laws, conditions, base=ebac.Scenario(seconds=0.5))
+    base = ebac.Scenario(seconds=0.5, observer="every-law")
+    few = study(Operators.grid()[:1], laws, conditions, base=base)
     _, overview = next(plot_study(few))
     save(overview, tmp_path / "overview.png", width=width)  # warns where a panel has no room
     shown = overview if width is None else overview.narrow()  # type: ignore[misc]

@@ -2,6 +2,8 @@
 
 import json
 import math
+import warnings
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -13,7 +15,7 @@ import ebac
 from ebac.cli import app
 from ebac.laws import design
 from ebac.studies import TuningInterrupted, tune, tuning
-from ebac.tuned_laws import tuned, tuned_laws
+from ebac.tuned_laws import tuned, tuned_laws, tuned_text
 
 FEW = ebac.Operators.sample(3, 5)
 #: What the package has, by the ending of the laws' names.
@@ -177,6 +179,45 @@ def test_a_delay_that_was_not_searched_takes_the_nearest() -> None:
     assert tuned("tca-damped-tuned", 5) == tuned("tca-damped-tuned", 2)
     changed = design("tca-damped-tuned", ebac.Device(), ebac.Timing(), kp=0.25)
     assert changed.kp == 0.25  # type: ignore[union-attr]
+
+
+def without_observer(law: Any, base: ebac.Scenario) -> list[str]:
+    """Return the files in which a study and a simulation of a law warn, after a look at the text."""
+    files = []
+    calls: list[Callable[[], Any]] = [
+        lambda: ebac.study(FEW[:1], [law, "ebac"], ["d1K10", "d1K20"], base=base),
+        lambda: ebac.simulate(base, law),
+    ]
+    for call in calls:
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always")
+            call()
+        assert len(caught) <= 1  # once a call
+        for one in caught:
+            assert one.category is UserWarning
+            assert str(one.message) == tuned_text("tca-damped-tuned-observer")
+            assert 'use it with Scenario(observer="every-law")' in str(one.message)
+            files.append(one.filename)
+    return files
+
+
+def test_a_law_that_is_tuned_for_the_observer_warns_without_it() -> None:
+    name, short = "tca-damped-tuned-observer", ebac.Scenario(seconds=0.1)
+    assert without_observer(name, short) == [__file__] * 2
+    assert without_observer(ebac.Variant(name, {"kp": 0.1}), short) == [__file__] * 2
+    for given in (
+        "every-law",
+        ebac.Observer.of(short.device, short.timing).replace(every_law=True),
+    ):
+        assert without_observer(name, short.replace(observer=given)) == []
+    assert without_observer("tca-damped-tuned", short) == []
+
+
+def test_a_command_prints_a_note_in_place_of_the_warning() -> None:
+    words = "study --law tca-damped-tuned-observer --seconds 0.1 --no-files --json"
+    done = CliRunner().invoke(app, [*words.split(), "--population", "random", "--hands", "1"])
+    assert done.exit_code == 0, done.output  # a warning is an error here
+    assert done.stderr.count("use it with --observer-every-law") == 1
 
 
 @pytest.mark.parametrize("ending", TABLES)

@@ -35,14 +35,11 @@ def law_names(given: Sequence[str], option: str = "--law") -> list[str]:
 
 def _tell_tuned(names: Sequence[str]) -> None:
     """Say on stderr what a law with tuned parameters is."""
-    from ebac.cli import output
+    from ebac.cli import by_option, output
+    from ebac.tuned_laws import tuned_text
 
     for name in names:
-        law, _, end = name.partition("-tuned")
-        how = ", acting on the observer's estimate: use it with --observer-every-law" if end else ""
-        output.note(
-            f"{name} is {law} with the parameters that `ebac tune` found for the reference device at 1 kHz{how}"
-        )
+        output.note(by_option.in_options(tuned_text(name)))
 
 
 def _words(given: Sequence[str], option: str) -> list[str]:

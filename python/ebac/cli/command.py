@@ -13,6 +13,7 @@ import typer
 from typer.core import TyperCommand, TyperGroup
 
 from ebac._util.arguments import did_you_mean
+from ebac._util.remarks import silent
 from ebac.cli import by_option, interrupts, options, output, wrong_input
 
 #: Panels of the options of a scenario.
@@ -61,7 +62,7 @@ class Command(TyperCommand):
         """Run the command."""
         by_option.current.clear()
         by_option.current.update({p.name: wrong_input.option_name(p) for p in self.params})
-        with interrupts.interruptible():
+        with interrupts.interruptible(), silent():
             return super().invoke(ctx)
 
 

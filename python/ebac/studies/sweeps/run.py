@@ -19,6 +19,7 @@ from ebac.studies.sweeps.measure import Columns, Run
 from ebac.studies.sweeps.parameters import swept
 from ebac.studies.sweeps.result import SweepResult
 from ebac.studies.sweeps.store import Store, fingerprint
+from ebac.tuned_laws import warn_without_observer
 
 Laws: TypeAlias = AnyLaw | Sequence[AnyLaw] | Mapping[str, AnyLaw]
 Known: TypeAlias = tuple[Device | DeviceFacts, Timing]
@@ -83,6 +84,11 @@ def sweep(
     SweepResult
         len(laws) x n rows.
 
+    Warns
+    -----
+    UserWarning
+        For a law "...-tuned-observer" where a scenario is not one with `observer="every-law"`.
+
     Raises
     ------
     SweepInterrupted
@@ -95,6 +101,7 @@ def sweep(
     require(limits, (RunLimits, NoneType), "ebac.sweep", wanted)
     _check(scenarios, seed=seed, threads=threads, bundle=bundle, designed_for=designed_for)
     named = name_laws(laws)
+    warn_without_observer(named.values(), (s.observer for s in scenarios))
     if progress is not None:
         progress(0, len(named) * len(scenarios))  # before the designs, which take seconds of many
     if seed is not None:
