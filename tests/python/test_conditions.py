@@ -36,10 +36,30 @@ def test_a_condition_that_is_written_out_is_what_it_says() -> None:
         ("d1K10", "d1K10"),
     ],
 )
-def test_a_condition_has_one_name(written: str, name: str) -> None:
-    (made,) = conditions([written, name])
-    assert made.name == name
-    assert made is CONDITIONS.get(name, made)
+def test_a_condition_has_the_name_by_which_it_was_asked_for(written: str, name: str) -> None:
+    (made,) = conditions([written, name])  # two names of one condition
+    (same,) = conditions([name, written])
+    assert (made.name, same.name) == (written, name)
+    assert made.summary == same.summary
+    assert same == CONDITIONS.get(name, same)
+
+
+def test_a_condition_of_a_group_has_the_name_of_the_group() -> None:
+    assert [one.name for one in conditions(["cells"])] == list(GROUPS["cells"])
+
+
+def test_a_condition_of_ones_own_keeps_its_name_to_itself() -> None:
+    mine = ebac.studies.Condition(name="d2K15", summary="mine", change=lambda scenario: scenario)
+    assert [one.name for one in conditions([mine, "d2K15"])] == ["d2K15", "d2b2K15"]
+    assert [one.name for one in conditions(["d2K15", mine])] == ["d2b2K15", "d2K15"]
+
+
+def test_rows_are_found_by_the_name_that_was_asked_for() -> None:
+    few, short = ebac.Operators.grid()[:1], ebac.Scenario(seconds=0.1)
+    study = ebac.study(few, ["tca"], ["d1K10", "d1K15"], base=short)
+    assert [row.condition for row in study.rows] == ["d1K10", "d1K15"]
+    assert [row.hands for row in study.rows] == [1, 1]
+    assert len(study.runs("tca", "d1K15")) == 1
 
 
 def test_failures_contain_a_noisy_and_a_disconnected_sensor() -> None:
@@ -78,7 +98,7 @@ def test_a_study_runs_under_a_condition_that_is_written_out(tmp_path: Path) -> N
     done = CliRunner().invoke(
         app, ["study", "--population", str(hands), "-l", "ebac", "-c", "d2K15", "--json"]
     )
-    assert '"condition": "d2b2K15"' in done.stdout
+    assert '"condition": "d2K15"' in done.stdout
 
 
 def test_a_note_says_what_a_condition_replaces_of_a_scenario(tmp_path: Path) -> None:

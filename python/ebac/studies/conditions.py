@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from ebac._util.arguments import require, unknown
@@ -258,7 +258,8 @@ GROUPS: dict[str, tuple[str, ...]] = {
 def conditions(names: Iterable[str | Condition]) -> list[Condition]:
     """Return conditions by name or group, each once, in the order asked; a Condition stands for itself.
 
-    A name such as d2b1K15 that is none of `CONDITIONS` is understood, too: see `written_out`.
+    A name such as d2b1K15 that is none of `CONDITIONS` is understood, too: see `written_out`. A condition has the name
+    by which it was first asked for: d2K20, though the group `cells` calls it d2b2K20.
 
     Raises
     ------
@@ -267,12 +268,14 @@ def conditions(names: Iterable[str | Condition]) -> list[Condition]:
     """
     found: dict[str, Condition] = {}
     require(names, Iterable, "ebac.study", "conditions by name")
-    for name in [names] if isinstance(names, str) else names:
+    given = [names] if isinstance(names, str) else list(names)
+    taken = {*GROUPS, *(one.name for one in given if isinstance(one, Condition))}
+    for name in given:
         if isinstance(name, Condition):
             found[name.name] = name
             continue
         for one in _named(name):
-            found[one.name] = one
+            found.setdefault(one.name, one if name in taken else replace(one, name=name))
     return list(found.values())
 
 
