@@ -245,6 +245,33 @@ def test_a_study_can_be_drawn(few: Study) -> None:
     assert titles == ["0 of 3 good", "3 of 3 good"]
 
 
+def test_a_study_draws_its_overview(few: Study) -> None:
+    assert "good hands" in few.plot().axes[0].get_title()
+
+
+def test_a_study_is_saved_as_the_command_prints_it(few: Study, tmp_path: Path) -> None:
+    answer = json.loads(few.to_json())
+    assert answer["command"] == "study"
+    assert answer["version"] == ebac.__version__
+    assert answer["rows"] == [row.row() for row in few.rows]
+    few.save(tmp_path / "study.json")
+    assert json.loads((tmp_path / "study.json").read_text(encoding="utf-8")) == answer
+    few.save(str(tmp_path / "study.csv"))
+    with (tmp_path / "study.csv").open(encoding="utf-8", newline="") as file:
+        rows = list(csv.DictReader(file))
+    assert [row["law"] for row in rows] == [row.law for row in few.rows]
+    assert list(rows[0]) == list(few.rows[0].row())
+    with pytest.raises(ValueError, match=r"study\.xls: must end in \.json, \.csv"):
+        few.save(tmp_path / "study.xls")
+
+
+def test_a_printed_study_names_the_columns_that_do_not_fit(few: Study) -> None:
+    last = repr(few).splitlines()[-1]
+    assert 'more columns in .rows and .save("study.csv"): ' in last
+    for name in ("ideal good", "force quiet"):
+        assert name in last
+
+
 def test_many_laws_under_one_condition_are_drawn_below_each_other() -> None:
     from ebac.plot import plot_study
 

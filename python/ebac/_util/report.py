@@ -11,7 +11,9 @@ from ebac._util import formatting
 
 #: Rows of a table; longer ones are cut in the middle. With several tables each has fewer, but not below the fewest.
 MOST_ROWS, FEWEST_ROWS = 12, 4
-#: Characters of a line; columns beyond are left out, and named as such, or stand below.
+#: Names of columns that do not fit.
+MOST_NAMES = 6
+#: Characters of a line; columns beyond are left out, and named below, or stand there.
 WIDTH = 110
 
 #: Endings of a key and the SI unit they stand for, the longer ones first.
@@ -25,12 +27,17 @@ UNITS = {
     "_m": "m",
     "_J": "J",
     "_N": "N",
+    "_W": "W",
     "_s": "s",
 }
 
 
 def report(
-    title: str, rows: Sequence[Mapping[str, Any]], *notes: str, keys: Sequence[str] = ()
+    title: str,
+    rows: Sequence[Mapping[str, Any]],
+    *notes: str,
+    keys: Sequence[str] = (),
+    more: str = "",
 ) -> str:
     """Return a title, a table of rows, and notes.
 
@@ -44,14 +51,16 @@ def report(
         Lines below the table; empty ones are left out.
     keys : sequence of str
         Of the columns that say which row it is: columns that do not fit then stand below, behind these once more.
+    more : str
+        Where columns are that do not fit, "in .rows".
     """
-    return "\n".join([title, *_tables(rows, keys), *filter(None, notes)])
+    return "\n".join([title, *_tables(rows, keys, more), *filter(None, notes)])
 
 
-def _tables(rows: Sequence[Mapping[str, Any]], keys: Sequence[str]) -> list[str]:
+def _tables(rows: Sequence[Mapping[str, Any]], keys: Sequence[str], more: str) -> list[str]:
     """Return the lines of one table, or with `keys` of as many as it takes to show all columns."""
     if not rows or not keys:
-        return _table(rows, MOST_ROWS)
+        return _table(rows, MOST_ROWS, more)
     blocks = _blocks(rows, keys)
     most = max(FEWEST_ROWS, MOST_ROWS // len(blocks))
     tables = [_table([{key: row[key] for key in block} for row in rows], most) for block in blocks]
@@ -74,12 +83,13 @@ def _blocks(rows: Sequence[Mapping[str, Any]], keys: Sequence[str]) -> list[list
     return blocks
 
 
-def _table(rows: Sequence[Mapping[str, Any]], most: int) -> list[str]:
+def _table(rows: Sequence[Mapping[str, Any]], most: int, more: str = "") -> list[str]:
     if not rows:
         return []
     half = most // 2
     shown = list(rows) if len(rows) <= most else [*rows[:half], *rows[-half:]]
-    lines = aligned([[heading(key), *(cell(key, row[key]) for row in shown)] for key in rows[0]])
+    columns = [[heading(key), *(cell(key, row[key]) for row in shown)] for key in rows[0]]
+    lines = aligned(columns, more)
     if len(shown) < len(rows):
         lines.insert(1 + half, f"  ... {len(rows) - len(shown)} more rows ...")
     return lines
@@ -90,18 +100,21 @@ def plural(count: int, noun: str) -> str:
     return f"{count} {noun}" if count == 1 else f"{count} {noun}s"
 
 
-def aligned(columns: Sequence[Sequence[str]]) -> list[str]:
-    """Return columns of text, heading first, as lines: words to the left, numbers to the right."""
+def aligned(columns: Sequence[Sequence[str]], more: str = "") -> list[str]:
+    """Return columns of text, heading first, as lines: words to the left, numbers to the right.
+
+    Columns that do not fit are named below, with `more`: where they are.
+    """
     if not columns:
         return []
     lines = [""] * len(columns[0])
     for place, column in enumerate(columns):
         wide = max(map(len, column))
         if len(lines[0]) + wide + 2 > WIDTH:
-            return [
-                *(line.rstrip() for line in lines),
-                f"  {plural(len(columns) - place, 'more column')}",
-            ]
+            left_out = f"  {plural(len(columns) - place, 'more column')} {more}".rstrip()
+            names = [column[0] for column in columns[place:]]
+            named = ", ".join(names[:MOST_NAMES] + ["..."] * (len(names) > MOST_NAMES))
+            return [*(line.rstrip() for line in lines), f"{left_out}: {named}"]
         words = any(letter.isalpha() for one in column[1:] for letter in one if one != "nan")
         lines = [
             line + "  " + (one.ljust(wide) if words else one.rjust(wide))

@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 import errno
-import json
 import os
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import ExitStack, contextmanager
-from math import isfinite
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, NoReturn, TypeAlias
 
 import typer
 
+from ebac._util.row_files import csv_table as csv_table
+from ebac._util.row_files import document as document
 from ebac.cli.tables import filled as filled
 from ebac.cli.tables import show as show
 from ebac.cli.tables import table as table
@@ -124,17 +124,6 @@ def cannot_write(where: str, error: OSError, kind: str = "file") -> NoReturn:
     fail(f"{where}: cannot be written ({error.strerror or error}); give another {kind}")
 
 
-def document(command: str, rows: Sequence[Mapping[str, Any]], **more: Any) -> str:
-    """Return the JSON of a command: its name, the version, `more` and the list `rows`.
-
-    A number that is not finite becomes null.
-    """
-    from ebac import __version__
-
-    values = {"command": command, "version": __version__, **more, "rows": rows}
-    return json.dumps(_finite(values), indent=2, allow_nan=False)
-
-
 def toml(**tables: Any) -> str:
     """Return parts of a scenario as its file has them: by name, SI units."""
     import tomli_w
@@ -142,24 +131,6 @@ def toml(**tables: Any) -> str:
     from ebac._util.serialisation import to_document
 
     return tomli_w.dumps({name: to_document(part) for name, part in tables.items()})
-
-
-def _finite(value: Any) -> Any:
-    if isinstance(value, Mapping):
-        return {str(name): _finite(item) for name, item in value.items()}
-    if isinstance(value, (list, tuple)):
-        return [_finite(item) for item in value]
-    return None if isinstance(value, float) and not isfinite(value) else value
-
-
-def csv_table(path: Path, rows: Sequence[Mapping[str, Any]], headings: Sequence[str] = ()) -> None:
-    """Write rows of the same names as CSV; `headings` are the names, needed where there may be no row."""
-    import csv
-
-    with path.open("w", encoding="utf-8", newline="") as file:
-        writer = csv.DictWriter(file, list(headings or rows[0]), lineterminator="\n")
-        writer.writeheader()
-        writer.writerows(rows)
 
 
 def list_files(out: Path, names: Sequence[str]) -> None:

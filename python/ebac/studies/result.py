@@ -5,13 +5,15 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import asdict, dataclass
 from functools import cached_property
-from typing import Any
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ebac import _core
-from ebac._util import formatting
+from ebac._util import formatting, row_files
+from ebac._util.arguments import require_path
 from ebac.laws import design
 from ebac.operators import Operators
 from ebac.scenario import Scenario
@@ -20,6 +22,9 @@ from ebac.studies.conditions import Condition
 from ebac.studies.sweeps.measure import Columns
 from ebac.studies.sweeps.result import SweepResult
 from ebac.trace import Trace
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -191,20 +196,50 @@ class Study:
             plural(len(self.columns["law"]), "run"),
         )
         title = f"Study, simulated: {', '.join(counts)}, {len(self.failures)} not good"
-        return report(title, [row.row() for row in self.rows])
+        return report(title, self._table(), more='in .rows and .save("study.csv")')
 
     def _repr_html_(self) -> str:
         """Return the first figure and the rows, for a notebook."""
         from ebac._util import notebook
-        from ebac.plot import plot_study
 
         title = f"{len(self.operators)} hands, simulated"
-        rows = [row.row() for row in self.rows]
-        return notebook.result(title, rows, lambda: next(plot_study(self))[1])
+        return notebook.result(title, self._table(), self.plot)
+
+    def _table(self) -> list[dict[str, Any]]:
+        return [row.row() for row in self.rows]
 
     def result(self) -> SweepResult:
         """Return every run as a table, to write it as CSV or Parquet."""
         return SweepResult(self.columns)
+
+    def plot(self) -> Figure:
+        """Draw the overview: good hands and energy drawn by law and condition. `ebac.plot.plot_study` draws all."""
+        from ebac.plot import plot_study
+
+        return next(plot_study(self))[1]
+
+    def to_json(self) -> str:
+        """Return the JSON document of `ebac study --json`: a row per law and condition, SI units."""
+        return row_files.document("study", self._table())
+
+    def save(self, path: str | Path) -> None:
+        """Write a row per law and condition, the format by the extension: .json as `to_json`, or .csv.
+
+        `result()` has every run, to write as CSV or Parquet. A file of that name is replaced.
+
+        Raises
+        ------
+        ValueError
+            For another extension.
+        """
+        from ebac.logs.files import extension
+
+        require_path(path, "Study.save")
+        file = Path(path)
+        if extension(file, (".json", ".csv")) == ".csv":
+            row_files.csv_table(file, self._table())
+        else:
+            file.write_text(self.to_json() + "\n", encoding="utf-8")
 
 
 def _of(measure: Any, values: NDArray[np.float64]) -> float | None:

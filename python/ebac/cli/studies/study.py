@@ -103,7 +103,7 @@ def study(
     folder = to.folder("study", as_json=as_json, resume=study_results.BUNDLES * resume)
     found = _run(people, names, given, folder, resume, quiet=as_json)
     to.report(
-        folder, "study", study_results.document(found), as_json=as_json,
+        folder, "study", found.to_json(), as_json=as_json,
         fill=lambda draft: study_results.fill(draft, found, traces, to, quiet=as_json),
         show=lambda: study_results.show(found, files=folder is not None),
     )  # fmt: skip

@@ -22,11 +22,6 @@ SHOWN, KEPT = 12, 20
 FAILURES = ("law", "condition", "operator", "hand", "why")
 
 
-def document(study: Study) -> str:
-    """Return the JSON document: one row per law and condition."""
-    return output.document("study", [row.row() for row in study.rows])
-
-
 def fill(draft: Path, study: Study, traces: int | None, to: ResultOptions, *, quiet: bool) -> None:
     """Write tables, figures and so many traces of failures into a draft of the results."""
     from ebac.plot import plot_study
@@ -35,7 +30,7 @@ def fill(draft: Path, study: Study, traces: int | None, to: ResultOptions, *, qu
     kept = spread(study.failures, most)
     with output.progress(3 + len(kept), quiet=quiet) as step:
         step("writing tables")
-        output.csv_table(draft / "study.csv", [row.row() for row in study.rows])
+        study.save(draft / "study.csv")
         study.operators.to_csv(draft / "population.csv")
         study.result().to_csv(draft / "runs.csv")
         failures = [
