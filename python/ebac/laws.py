@@ -25,7 +25,7 @@ from ebac._core import (
     Wall,
     _World,
 )
-from ebac._util.arguments import refuse_unknown, require, unknown_name
+from ebac._util.arguments import refuse_unknown, require, shown, unknown_name
 from ebac._util.copying import refuse_uncopyable
 from ebac._util.wrong_calls import plain_constructor
 from ebac.tuned_laws import tuned, tuned_laws
@@ -215,10 +215,16 @@ def _class_of(law: str | type) -> type[CoreLaw]:
     return cast("type[CoreLaw]", law)
 
 
+#: What makes a law, and how it is written.
+_NEEDS = {"step": "step(port) -> float", "reset": "reset()"}
+
+
 def checked(law: Any) -> CoreLaw | PythonLaw:
     """Return a finished law. Raises TypeError unless it has step(port) and reset(), and can be copied."""
     if not isinstance(law, PythonLaw) or isinstance(law, type):
-        raise TypeError(f"{law!r} is no law: it needs step(port) -> float and reset()")
+        lacks = [needs for name, needs in _NEEDS.items() if not hasattr(law, name)]
+        what = type(law).__name__ if len(lacks) < len(_NEEDS) else shown(law)
+        raise TypeError(f"{what} is no law: it needs {' and '.join(lacks)}")
     if isinstance(law, CoreLaw):
         return law
     for name, given, what in (("step", ["port"], "the port of one axis"), ("reset", [], "nothing")):

@@ -420,6 +420,17 @@ def test_a_fault_is_told_and_its_log_kept(monkeypatch: pytest.MonkeyPatch, tmp_p
             "study --device-friction 1",
             "did you mean --device-coulomb or --device-friction-compensation; see",
         ),
+        (
+            "study --law mine.py:Mine",
+            "--law mine.py:Mine: no such name; `ebac laws` lists all; a law of your own is used from Python",
+        ),
+        ("wall --law mine.py:Mine", "see docs/how-to/write_a_law.md"),
+        (
+            "wall --change guard=off",
+            "--change: there is no such option here; `ebac ablation`, `ebac worst` and `ebac zwidth` have it",
+        ),
+        ("teleop simulate", "teleop simulate: there is no such command, did you mean 'run'; see"),
+        ("simulate", "simulate: there is no such command, did you mean 'wall'; see"),
         ("study --delay 2", "--delay: there is no such option here, --condition sets it"),
         ("study --hand-mass 2", "--hand-mass: there is no such option here, --population sets it"),
         ("worst --hand finger", "--hand: there is no such option here, --family sets it"),

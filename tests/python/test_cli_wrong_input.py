@@ -15,6 +15,7 @@ from typer.testing import CliRunner
 
 from ebac import datasets
 from ebac.cli import app
+from ebac.cli.wrong_input import OF_OTHERS
 
 #: What a command needs beside the option that is wrong.
 NEEDS = {
@@ -105,6 +106,17 @@ def cases() -> Iterator[Case]:
                     continue
                 seen.add((what, kind))
                 yield Case(command, name, what, tuple(words), hint)
+
+
+def test_the_commands_that_have_an_option_of_theirs_are_named() -> None:
+    for option, named in OF_OTHERS.items():
+        have = {
+            command
+            for command, callback in leaves(typer.main.get_command(app))
+            for parameter in inspect.signature(callback).parameters.values()
+            if name_of(parameter)[0] == option
+        }
+        assert set(named) == have
 
 
 def wrong(name: str, kind: Any) -> Iterator[tuple[str, str, str]]:

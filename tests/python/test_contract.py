@@ -226,6 +226,29 @@ def test_a_python_law_with_other_arguments_is_told_how_to_take_them(law: Any, me
             run()
 
 
+class NoReset:
+    def step(self, port: ebac.Port) -> float:
+        return 0.0
+
+
+class NoStep:
+    def reset(self) -> None:
+        pass
+
+
+@pytest.mark.parametrize(
+    ("law", "message"),
+    [
+        (NoReset(), "NoReset is no law: it needs reset()"),
+        (NoStep(), "NoStep is no law: it needs step(port) -> float"),
+        (3, "3 (int) is no law: it needs step(port) -> float and reset()"),
+    ],
+)
+def test_what_a_class_lacks_to_be_a_law_is_named(law: Any, message: str) -> None:
+    with pytest.raises(TypeError, match=f"^{re.escape(message)}$"):
+        ebac.simulate(ebac.Scenario(seconds=0.1), law)
+
+
 @pytest.mark.parametrize("answer", ["ten newtons", None, np.zeros(2), [1.0], {}])
 def test_a_python_law_that_gives_no_number_is_named_with_its_answer(answer: Any) -> None:
     text = f"After.step returned {answer!r}: must return the force [N] of one axis, a number"

@@ -8,7 +8,7 @@ import pytest
 
 from ebac import identify
 from ebac.datasets import write
-from ebac.identify import Recording
+from ebac.identify import Recording, motor_check
 
 
 @pytest.fixture(scope="module")
@@ -20,9 +20,41 @@ def test_a_force_in_kgf_and_a_motor_of_the_other_sign_are_named(arm: Recording) 
     assert identify.fit_arm(arm).misses == ()
     assert arm.force is not None
     wrong = identify.fit_arm(replace(arm, force=arm.force / 9.80665)).misses
-    assert any("by 0.102 N of the hand: as if it were in kgf" in text for text in wrong)
+    cure = "as if force were in kgf. Name its unit, --unit force=kgf, in Python units={'force': 'kgf'}."
+    assert any(f"by 0.102 N of the hand: {cure}" in text for text in wrong)
+    assert arm.motor is not None
+    wrong = identify.fit_arm(replace(arm, motor=arm.motor / 4.44822)).misses
+    assert any("as if motor were in lbf. Name its unit, --unit motor=lbf" in text for text in wrong)
+    wrong = identify.fit_arm(replace(arm, motor=arm.motor / 30)).misses
+    assert any("name the unit, as in --unit force=kgf" in text for text in wrong)
     turned = identify.fit_arm(arm.flipped("motor")).misses
     assert any("--flip-motor" in text for text in turned)
+
+
+def test_the_unit_that_the_message_names_is_the_cure(tmp_path: Path, arm: Recording) -> None:
+    assert arm.force is not None
+    assert arm.motor is not None
+    columns = np.array([arm.t, arm.x, arm.force / 9.80665, arm.motor]).T
+    log = tmp_path / "kgf.csv"
+    heads = "Zeit [s],Weg [m],Fz [N],motor [N]"
+    np.savetxt(log, columns, delimiter=",", header=heads, comments="")
+    wrong = identify.load(log)
+    assert any("--unit force=kgf" in text for text in motor_check.doubts([wrong]))
+    assert motor_check.doubts([identify.load(log, units={"force": "kgf"})]) == ()
+
+
+@pytest.mark.parametrize("force", ["Kraft", "Kraft [N]", "Fz [N]", "Fy"])
+def test_german_headings_and_axes_of_a_sensor_are_known(
+    force: str, tmp_path: Path, arm: Recording
+) -> None:
+    assert arm.force is not None
+    log = tmp_path / "log.csv"
+    columns = np.array([arm.t, 1e3 * arm.x, arm.force]).T
+    np.savetxt(log, columns, delimiter=",", header=f"Zeit [s],Weg [mm],{force}", comments="")
+    recording = identify.load(log)
+    assert recording.force is not None
+    assert recording.x == pytest.approx(arm.x)
+    assert recording.force == pytest.approx(arm.force)
 
 
 def test_a_hand_that_nobody_has_is_named(arm: Recording) -> None:

@@ -247,4 +247,4 @@ def test_a_subtly_active_law_is_caught(project: pytest.Pytester) -> None:
 
 def test_what_is_no_law_is_refused_when_the_class_is_made(project: pytest.Pytester) -> None:
     result = conformance(project, "3.0")
-    assert "3.0 is no law: it needs step(port) -> float and reset()" in told(result)
+    assert "3.0 (float) is no law: it needs step(port) -> float and reset()" in told(result)

@@ -145,8 +145,22 @@ def test_an_axis_that_is_not_there_is_refused(axis: int, run: Any) -> None:
 
 def test_an_unknown_column_lists_those_there_are(trace: ebac.Trace) -> None:
     assert "speed" not in trace
-    with pytest.raises(KeyError, match=r"no column is called 'speed'"):
-        trace["speed"]
+    with pytest.raises(KeyError, match=r"no column is called 'nonsense'; there are: tick, t, "):
+        trace["nonsense"]
+
+
+@pytest.mark.parametrize(
+    ("word", "column"),
+    [
+        ("position", "'x'"),
+        ("Speed", "'v'"),
+        ("force", "'f_applied', 'f_cmd' or 'f_meas'"),
+        ("time", "'t'"),
+    ],
+)
+def test_a_column_is_found_by_its_word(word: str, column: str, trace: ebac.Trace) -> None:
+    with pytest.raises(KeyError, match=f"no column is called '{word}', did you mean {column}; "):
+        trace[word]
 
 
 # --- slices of time ---

@@ -149,9 +149,10 @@ def near(name: object, known: Iterable[str]) -> list[str]:
     return [lower[other] for other in dict.fromkeys([*close, *begun])][:3]
 
 
-def did_you_mean(name: object, known: Iterable[str]) -> str:
-    """Return the nearest names as the next words of a message; nothing where none is near."""
-    quoted = [repr(other) for other in near(name, known)]
+def did_you_mean(name: object, known: Iterable[str], meant: Sequence[str] = ()) -> str:
+    """Return those of `meant` that are known, or the nearest names, as the next words of a message; "" for none."""
+    names = list(known)
+    quoted = [repr(other) for other in [one for one in meant if one in names] or near(name, names)]
     before, last = ", ".join(quoted[:-1]), "".join(quoted[-1:])
     return f", did you mean {f'{before} or {last}' if before else last}" if quoted else ""
 
@@ -195,11 +196,13 @@ class UnknownNameError(KeyError):
         return str(self.args[0]) if self.args else ""
 
 
-def unknown_name(kind: str, name: object, known: Iterable[str]) -> KeyError:
-    """Return the error for a name that does not exist, worded as by `unknown`."""
+def unknown_name(
+    kind: str, name: object, known: Iterable[str], meant: Sequence[str] = ()
+) -> KeyError:
+    """Return the error for a name that does not exist, worded as by `unknown`; `meant` are names it may stand for."""
     names = list(known)
     return UnknownNameError(
-        f"no {kind} is called {name!r}{did_you_mean(name, names)}; {_all(names, kind)}"
+        f"no {kind} is called {name!r}{did_you_mean(name, names, meant)}; {_all(names, kind)}"
     )
 
 

@@ -2,10 +2,17 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Sequence
 
 from ebac._util.arguments import unknown
 from ebac.cli import doubtful_wall
+
+#: What follows where a law looks like a file or a class.
+_OWN_LAW = (
+    "; a law of your own is used from Python, as in ebac.study(hands, {'mine': Mine()}): see "
+    "docs/how-to/write_a_law.md"
+)
 
 
 def one_law(name: str, option: str = "--law") -> str:
@@ -26,7 +33,8 @@ def law_names(given: Sequence[str], option: str = "--law") -> list[str]:
     for word in _words(given, option):
         name = word.lower().replace("_", "-")
         if name not in known and name != "all":
-            raise ValueError(unknown(f"{option} {word}", name, [*known, "all"], "law"))
+            own = _OWN_LAW if re.search(r"[.:/]", word) else ""
+            raise ValueError(unknown(f"{option} {word}", name, [*known, "all"], "law") + own)
         names += LAWS if name == "all" else [name]
     chosen = list(dict.fromkeys(names))
     _tell_tuned([name for name in chosen if name not in LAWS])

@@ -35,6 +35,9 @@ RENAMED = {
     "--current": "--max-current",
 }
 
+#: Commands by words that people use for them, which look like others: by group, `ebac` for the program itself.
+MEANT = {("teleop", "simulate"): "run", ("ebac", "simulate"): "wall"}
+
 
 class Command(TyperCommand):
     """A command that understands old names, refuses in one sentence, and ends well on Ctrl-C."""
@@ -87,8 +90,9 @@ class Group(TyperGroup):
             if ctx.resilient_parsing:
                 raise
             known = [name for name, one in self.commands.items() if not one.hidden]
-            near = did_you_mean(args[0], known)
             path = ctx.command_path
+            meant = MEANT.get((path.split()[-1], args[0]), "")
+            near = did_you_mean(args[0], known, [meant])
             output.fail(f"{path} {args[0]}: there is no such command{near}; see {path} --help")
 
 

@@ -22,6 +22,9 @@ VARIED = {
 #: Options by words that people use for them, which look like others.
 MEANT = {"--device-friction": ("--device-coulomb", "--device-friction-compensation")}
 
+#: Options that only some commands have, and these.
+OF_OTHERS = {"--change": ("ablation", "worst", "zwidth")}
+
 #: What people look for who give an argument to a command that takes none.
 INSTEAD = {
     "bus load": "`ebac drive plan FILE` prints the load of a network file or profile",
@@ -127,6 +130,9 @@ def _unknown_option(wrong: str, command: Any) -> str:
         other = next((name for name in others if name in known), None)
         if other is not None and re.fullmatch(pattern, wrong):
             return f"{wrong}: there is no such option here, {other} sets it; see --help"
+    if wrong in OF_OTHERS:
+        have = _or([f"`ebac {name}`" for name in OF_OTHERS[wrong]], "and")
+        return f"{wrong}: there is no such option here; {have} have it"
     bare = {name[2:]: name for name in known}  # two dashes are no likeness
     tails = {name.partition("-")[2]: name for name in bare if "-" in name}
     word = wrong.lstrip("-")
@@ -156,8 +162,8 @@ def _too_many(context: Any) -> str:
     return f"`ebac {name}` takes no argument, only options; {remedy}"
 
 
-def _or(words: Sequence[str]) -> str:
-    return " or ".join([", ".join(words[:-1]), words[-1]] if len(words) > 1 else words)
+def _or(words: Sequence[str], joint: str = "or") -> str:
+    return f" {joint} ".join([", ".join(words[:-1]), words[-1]] if len(words) > 1 else words)
 
 
 def _help(param: Any) -> str:

@@ -21,13 +21,27 @@ QUANTITIES: dict[str, tuple[str, ...]] = {
 NAMES: dict[str, tuple[str, ...]] = {
     "t": ("t", "time", "timestamp", "zeit", "seconds", "sec"),
     "x": (
-        *("x", "x_0", "pos", "position", "px", "x_pos", "handle", "displacement"),
+        *("x", "x_0", "pos", "position", "weg", "px", "x_pos", "handle", "displacement"),
         *("handle_pos", "handle_position", "handle_x", "pos_x", "position_x", "x_position"),
         *("theta", "theta_0", "phi", "angle", "q", "q_0", "joint_angle", "joint_position"),
         *("knob", "encoder", "enc", "counts"),
     ),
     "force": (
-        *("f_meas", "f_meas_0", "force", "f", "fx", "f_hand", "fh", "f_sensor", "ft", "force_x"),
+        *(
+            "f_meas",
+            "f_meas_0",
+            "force",
+            "kraft",
+            "f",
+            "fx",
+            "fy",
+            "fz",
+            "f_hand",
+            "fh",
+            "f_sensor",
+            "ft",
+            "force_x",
+        ),
         *("grip_force", "tau_meas", "tau_hand", "hand_torque", "torque_hand", "torque_sensor"),
         *("torque", "tau", "tau_ext"),
     ),
@@ -52,7 +66,7 @@ _SAYS = {
     "count": re.compile(r"counts"),
     "torque": re.compile(r"(.*_)?tau(_.*)?|.*torque.*"),
     "current": re.compile(r".*current.*|i_.*"),
-    "force": re.compile(r"f(_.*)?|f[a-z]|.*force.*"),
+    "force": re.compile(r"f(_.*)?|f[a-z]|.*force.*|.*kraft.*"),
 }
 
 

@@ -37,12 +37,17 @@ def _doubt(r: Recording) -> str:
         )
     if low <= gain <= high:
         return ""
-    unit = next(
-        (f": as if it were in {n}" for n, by in FACTORS.items() if abs(gain * by - 1) < NEAR), ""
-    )
+    says = f"{r.name}: 1 N of the motor is answered by {gain:.3g} N of the hand"
+    for unit, by in FACTORS.items():
+        for signal, factor in (("force", gain * by), ("motor", gain / by)):
+            if abs(factor - 1) < NEAR:
+                return (
+                    f"{says}: as if {signal} were in {unit}. Name its unit, --unit {signal}={unit}, in Python "
+                    f"units={{'{signal}': '{unit}'}}."
+                )
     return (
-        f"{r.name}: 1 N of the motor is answered by {gain:.3g} N of the hand{unit}. One of the two is in a wrong "
-        "unit or is no such force: name it, --unit force=N or --unit motor=N."
+        f"{says}. One of the two is in another unit than its heading says, or is no such force: name the unit, as in "
+        "--unit force=kgf, or the column, as in --column motor=NAME."
     )
 
 

@@ -10,6 +10,15 @@ from numpy.typing import NDArray
 
 from ebac import _core
 
+#: Columns by words that people use for them, which look like none.
+MEANT: dict[str, tuple[str, ...]] = {
+    "time": ("t",),
+    "position": ("x",),
+    "velocity": ("v",),
+    "speed": ("v",),
+    "force": ("f_applied", "f_cmd", "f_meas"),
+    "torque": ("tau",),
+}
 _KINDS = {"f": np.float64, "i": np.int64, "w": np.int32, "u": np.uint32, "b": np.bool_}
 
 

@@ -14,7 +14,7 @@ from ebac import _core
 from ebac._util.arguments import unknown_name, whole
 from ebac._util.need import need
 from ebac.scenario import Scenario
-from ebac.trace.columns import ColumnInfo, column_infos, row_views
+from ebac.trace.columns import MEANT, ColumnInfo, column_infos, row_views
 from ebac.trace.time_slice import rows_between
 
 if TYPE_CHECKING:
@@ -104,7 +104,7 @@ class Trace:
                 raise TypeError(
                     f"trace[{key!r}]: must be the name of a column, or two times [s] as in trace[1.0:2.5]"
                 )
-            raise unknown_name("column", key, self._data)
+            raise unknown_name("column", key, self._data, MEANT.get(key.lower(), ()))
         return self._data[key]
 
     def axis(self, name: str, axis: int = 0) -> NDArray[Any]:
