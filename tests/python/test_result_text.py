@@ -127,6 +127,23 @@ def test_a_printed_contact_has_every_number_with_its_unit(run: Run) -> None:
         assert line.endswith(f" {unit}")
 
 
+def test_a_printed_contact_says_that_the_motor_was_saturated(run: Run) -> None:
+    class Wild:
+        def step(self, port: ebac.Port) -> float:
+            return 1e6 if port.x > 0 else 0.0
+
+        def reset(self) -> None:
+            pass
+
+    wild = ebac.contact(ebac.simulate(ebac.Scenario(seconds=0.5), Wild()))
+    assert wild.saturated_share is not None
+    assert 0 < wild.saturated_share < 1
+    assert f"motor saturated     {100 * wild.saturated_share:.0f} %" in str(wild)
+    fine = ebac.contact(run("ebac"))
+    assert fine.saturated_share == 0
+    assert "motor saturated" not in str(fine)
+
+
 def test_head_names_what_is_asked_for(run: Run) -> None:
     lines = run("eba").head(3, "t", "x").splitlines()
     assert len(lines) == 1 + 1 + 3

@@ -9,7 +9,7 @@ from ebac._util import formatting
 #: Numbers of a contact that are no keys of `ebac wall --json`.
 MORE = (
     "count_m", "allowed_m", "most_drawn_J", "force_step_N", "most_pull_N", "rest_power_W", "seconds", "touched",
-    "with_hand",
+    "with_hand", "saturated_share",
 )  # fmt: skip
 #: What a printed contact shows: label, attribute, unit, what to print where there is none: with nothing, no line.
 LINES = (
@@ -33,6 +33,7 @@ LINES = (
     ("drawn", "drawn_J", "J", ""),
     ("drawn in any window", "most_drawn_J", "J", "-"),
     ("force limited", "clamped_share", "share", "-"),
+    ("motor saturated", "saturated", "share", ""),
 )
 
 
@@ -115,6 +116,9 @@ class Contact:
     with_hand : bool
         Whether it swings because the target of the simulated hand still moves over the last 30 %: there the handle
         goes no longer a way, to and fro, than the target on all axes, tremor apart. Such a swing is no limit cycle.
+    saturated_share : float or None
+        Share of ticks in which the command was more than the motor's peak force, which is applied then. None without a
+        scenario, and on a gimbal, where a force is no torque of one motor.
 
     Notes
     -----
@@ -170,6 +174,7 @@ class Contact:
     touched_at_rest: bool | None = None
     drawn_J: float | None = None
     with_hand: bool = False
+    saturated_share: float | None = None
 
     @property
     def verdict(self) -> str:
@@ -223,6 +228,11 @@ class Contact:
     def limit_cycle(self) -> float | None:
         """Frequency of a limit cycle [Hz]: that of the swing, None where the handle moves with the hand."""
         return None if self.with_hand else self.limit_cycle_Hz
+
+    @property
+    def saturated(self) -> float | None:
+        """`saturated_share`, None where the motor could give every command."""
+        return self.saturated_share or None
 
     @property
     def exact(self) -> bool | None:

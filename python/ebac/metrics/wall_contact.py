@@ -15,7 +15,7 @@ from ebac._core import (
 from ebac._core import (
     TAIL_SHARE as TAIL_SHARE,
 )  # of a run, its end, over which rest and swing are taken
-from ebac._core import _measure_contact, _stored_energy
+from ebac._core import Linear, _measure_contact, _stored_energy
 from ebac._util.arguments import require
 from ebac._util.foreign_worlds import foreign
 from ebac.hands import is_own
@@ -118,6 +118,7 @@ def contact(trace: Trace, *, axis: int = 0, truth: bool = True) -> Contact:
         seconds=float(trace["t"][-1] - trace["t"][0]),
         drawn_J=drawn(trace) if with_energy and scenario and _moves(trace) else None,
         with_hand=simulated and not known["still"] and moves_with_hand(trace, axis),
+        saturated_share=_saturated(trace, axis),
         **_touched(trace, axis),
         **{column: known[name] for column, name in COLUMNS.items()},
         **{name: known[name] for name in FLAGS},
@@ -152,6 +153,16 @@ def _way(x: NDArray[np.float64]) -> float:
 def _moves(trace: Trace) -> bool:
     """Return whether a surface of the virtual world moved while it was touched."""
     return "world_v" in trace and bool(trace["world_v"].any())
+
+
+def _saturated(trace: Trace, axis: int) -> float | None:
+    """Return the share of ticks whose command is more than the motor can give."""
+    scenario = trace.scenario
+    if scenario is None or "f_cmd" not in trace:
+        return None
+    if not isinstance(scenario.device.kinematics, Linear):
+        return None
+    return float(np.mean(np.abs(trace.axis("f_cmd", axis)) > scenario.device.peak_force))
 
 
 def _touched(trace: Trace, axis: int) -> dict[str, bool]:
