@@ -101,7 +101,7 @@ TEST(AnyLaw, OfOtherDeviceFactsTakesOverAnew) {
 
   PerAxis<AnyLaw> laws(any_law(Ebac({.reserve = 0.01})));
   auto next = PerAxis<AnyLaw>::replacement(any_law(Ebac({.reserve = 0.03})));
-  laws.adopt(next, std::array<Axis, 1>{});
+  laws.adopt(next);
   EXPECT_EQ(laws.state_table().find("energy")->number(laws.state(0)), 0.03);
 }
 

@@ -7,6 +7,7 @@
 #include "ebac/control/lag_compensator.hpp"
 #include "ebac/control/law_type.hpp"
 #include "ebac/control/per_axis.hpp"
+#include "ebac/control/take_over.hpp"
 #include "ebac/control/tca.hpp"
 #include "ebac/loop/held_back_commands.hpp"
 #include "ebac/loop/parameter_updates.hpp"
@@ -37,7 +38,7 @@ struct Pressing {
   }
   void adopt(const AnyLaw& next) {
     auto all = All::replacement(next);
-    law.adopt(all, axes);
+    law.adopt(all);
   }
 };
 
@@ -112,7 +113,7 @@ TEST(PerAxis, ALawTakesAWorldThatBecomesSofterForNoMotion) {
 
 TEST(PerAxis, ALawThatFollowsASofterOneBeginsAsSoft) {
   Pressing pressing(tca(6));
-  pressing.meet(60);  // gives 6
+  for (int i = 0; i < 400; ++i) pressing.meet(60);  // gives 6
   pressing.adopt(tca(90, 2));
   EXPECT_DOUBLE_EQ(pressing.meet(60), 6);
   for (int i = 0; i < 60; ++i) pressing.meet(60);
@@ -145,6 +146,47 @@ TEST(PerAxis, ASliderThatIsMovedTakesNothingFromAHandThatComesIn) {
     f += 0.3;
     EXPECT_NEAR(pressing.meet(f), f, 2.2);  // the way of seven ticks: each step fades slowly
   }
+}
+
+TEST(PerAxis, ASliderThatIsMovedToAndFroTakesNothingFromAHandAtRest) {
+  Pressing pressing(tca());
+  pressing.meet(10);
+  for (int change = 0; change < 100; ++change) {
+    const double before = change % 2 == 0 ? 10 : 13;
+    const double now = 23 - before;
+    pressing.law.meet_another({before, 0, 0}, {now, 0, 0});
+    for (int tick = 0; tick < 16; ++tick) EXPECT_GE(pressing.meet(now), 10 - 1e-9);
+  }
+}
+
+TEST(PerAxis, WhileAWorldTakesOverTheForceNeverPullsIntoIt) {
+  Noise random(6);
+  for (int run = 0; run < rounds(200); ++run) {
+    Pressing pressing(tca());
+    double before = 20 * std::abs(random.symmetric());
+    for (int change = 0; change < 5; ++change) {
+      pressing.meet(before);
+      const double now = 20 * std::abs(random.symmetric());
+      pressing.law.meet_another({before, 0, 0}, {now, 0, 0});
+      for (int i = 0; i < 40; ++i) {
+        before = 20 * std::abs(random.symmetric());
+        EXPECT_GE(pressing.meet(before), 0);
+      }
+    }
+  }
+}
+
+TEST(TakeOver, OfALawThatSwingsItCountsWhatThatGaveAtMost) {
+  TakeOver take_over;
+  std::array<Axis, 1> axes{};
+  axes[0].port.f_env = 60;
+  axes[0].port.dt = 1e-3;
+  for (int tick = 0; tick < 300; ++tick) {
+    axes[0].port.f_cmd = tick % 20 < 10 ? 60 : 0;
+    take_over.watch(axes);
+  }
+  take_over.law();
+  EXPECT_GT(take_over.shown(ContactForce::straight({60, 0, 0}), axes).force[0], 45);
 }
 
 TEST(PerAxis, AfterAContactIsLostTheNextOneIsWhole) {

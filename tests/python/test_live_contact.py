@@ -104,6 +104,46 @@ def test_a_slider_that_moves_as_the_hand_comes_in_takes_no_wall_away(
     assert deepest(moved=True) < deepest(moved=False) + 1e-3  # m; 8 to 24 mm with the last command
 
 
+@pytest.mark.parametrize("law", ["ebac", "tca-damped", "lag-compensator", "eba"])
+@pytest.mark.parametrize("observer", [True, False])
+@pytest.mark.parametrize("every", [0.016, 0.2], ids=["fast", "slow"])
+def test_a_slider_that_moves_to_and_fro_takes_no_wall_away(
+    tmp_path: Path, law: str, observer: bool, every: float
+) -> None:
+    """The slider is at 10 and 20 kN/m in turn, and takes `every` seconds from one to the other, in steps of 16 ms."""
+    steps = round(every / 0.016)
+    with Session(virtual=True, paced=False, folder=tmp_path) as session:
+        session.change(observer=observer, law=law, stiffness=1e4)
+        session.start()
+        session.advance(1.6)
+        for step in range(1, 101):
+            turn = step % (2 * steps)
+            session.change(stiffness=1e4 * 2 ** (min(turn, 2 * steps - turn) / steps))
+            session.advance(0.016)
+        assert session.fault == 0
+        place = session.run.tail(1700).axis("true.x", 0)  # type: ignore[union-attr]
+    assert (
+        place.max() < place[0] + 2.5e-3
+    )  # m; up to 28 mm where shares were lost from change to change
+
+
+@pytest.mark.parametrize("observer", [True, False])
+def test_a_wall_that_appears_around_a_handle_in_motion_never_pulls(
+    tmp_path: Path, observer: bool
+) -> None:
+    with Session(virtual=True, paced=False, folder=tmp_path) as session:
+        session.change(observer=observer, world="free")
+        session.start()
+        session.advance(0.08)
+        session.change(world="as configured")
+        session.advance(0.5)
+        assert session.fault == 0
+        tail = session.run.tail(500)  # type: ignore[union-attr]
+    pull = -tail.axis("f_cmd", 0)[tail.axis("f_env", 0) > 0]
+    assert pull.max() < 0.2  # N; 35 N where the damper of the first tick was taken off
+    assert np.abs(tail.axis("true.v", 0)).max() < 0.7  # m/s; the hand comes with 0.5
+
+
 def test_a_world_around_the_handle_brings_it_out(tmp_path: Path) -> None:
     with Session(virtual=True, paced=False, folder=tmp_path) as session:
         session.change(world="free")

@@ -45,9 +45,10 @@ class LawObject {
   /// What its energy account, if it has one, holds beyond its reserve [J], and another such amount for it.
   virtual double surplus() const EBAC_RT { return 0; }
   virtual void settle(double) EBAC_RT {}
-  /// The force of the last tick has changed by so much [N] without a motion: its direction has turned, or a part of the
-  /// contact's force that is shown to the law has grown.
+  /// The force of the last tick has changed by so much [N] without a motion: its direction has turned.
   virtual void shift(double) EBAC_RT {}
+  /// The contact has become so many times as stiff, without a motion, and its force with it.
+  virtual void scale(double) EBAC_RT {}
   /// How long its energy account has held its force back [s]; 0 for a law without one.
   virtual double starved() const EBAC_RT = 0;
   /// Whether its energy account is low with the observer.
@@ -103,6 +104,7 @@ class AnyLaw {
   double surplus() const EBAC_RT { return law_->surplus(); }
   void settle(double surplus) EBAC_RT { law_->settle(surplus); }
   void shift(double change) EBAC_RT { law_->shift(change); }
+  void scale(double by) EBAC_RT { law_->scale(by); }
   double starved() const EBAC_RT { return law_->starved(); }
   bool drained() const EBAC_RT { return law_->drained(); }
   bool observed() const EBAC_RT { return law_->observed(); }

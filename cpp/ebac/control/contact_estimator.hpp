@@ -41,6 +41,15 @@ class ContactEstimator {
     there_.force += change;
   }
 
+  /// The contact has become `by` times as stiff without a motion.
+  void scale(double by) EBAC_RT {
+    for (double* of :
+         {&last_env_, &slope_, &damping_, &last_seen_, &rest_slope_, &here_.force, &there_.force}) {
+      *of *= by;
+    }
+    if (slope_ > 0) stored_at_ = std::min(most_, slope_);
+  }
+
   /// Takes one tick; `direction` is that of the motion beyond one count: -1, 0, +1.
   void watch(const Port& port, int direction) EBAC_RT {
     if (port.f_env == 0) {

@@ -57,6 +57,11 @@ class DynamicStiffness {
     slow_ += change;
     slower_ += change;
   }
+  /// The world has become `by` times as stiff without a motion.
+  void scale(double by) EBAC_RT {
+    slow_ *= by;
+    slower_ *= by;
+  }
   /// The next force may be of a contact that has lasted.
   void forget() EBAC_RT { unknown_ = true; }
   void retune(const DynamicStiffness& next) EBAC_RT {

@@ -27,9 +27,6 @@ class EasedFrame {
     return follow(eased);
   }
 
-  /// The directions of the last tick.
-  const Jacobian& directions() const EBAC_RT { return frame_; }
-
   /// By how much the force of the last tick has changed along each direction because that has turned since [N].
   const Axes& turned() const EBAC_RT { return turned_; }
 

@@ -74,8 +74,13 @@ class Ebac {
   void shift(double change) EBAC_RT {
     encoder_.shift(change);
     observer_.shift(change);
-    double& f_d = shared_.state.f_d;
-    if (f_d != 0) f_d = f_d > 0 ? std::max(f_d + change, 0.0) : std::min(f_d + change, 0.0);
+    if (shared_.state.f_d != 0) shared_.state.f_d += change;
+  }
+  /// The world has become `by` times as stiff without a motion.
+  void scale(double by) EBAC_RT {
+    encoder_.scale(by);
+    observer_.scale(by);
+    shared_.state.f_d *= by;
   }
   void retune(const Ebac& next) EBAC_RT {
     shared_.params = next.params();

@@ -55,6 +55,8 @@ class EbacByEncoder {
 
   /// The force of the last tick has changed by `change` [N] without a motion.
   void shift(double change) EBAC_RT { contact_.shift(change); }
+  /// The world has become `by` times as stiff without a motion.
+  void scale(double by) EBAC_RT { contact_.scale(by); }
 
   /// Stiffness at which the last contact can have stored energy [N/m].
   double stored_at() const EBAC_RT { return contact_.stored_at(); }

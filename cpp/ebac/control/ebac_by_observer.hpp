@@ -39,6 +39,8 @@ class EbacByObserver {
 
   /// The force of the last tick has changed by `change` [N] without a motion.
   void shift(double change) EBAC_RT { force_.shift(change); }
+  /// The world has become `by` times as stiff without a motion.
+  void scale(double by) EBAC_RT { force_.scale(by); }
 
   /// Nothing is known of the contact.
   void forget() EBAC_RT { force_.forget(); }

@@ -116,6 +116,12 @@ class LagCompensator {
     last_env_ += change;
     state_.f_d += change;
   }
+  /// The world has become `by` times as stiff without a motion.
+  void scale(double by) EBAC_RT {
+    contact_.scale(by);
+    last_env_ *= by;
+    state_.f_d *= by;
+  }
   void retune(const LagCompensator& next) EBAC_RT {
     params_ = next.params_;
     recovery_ = next.recovery_;

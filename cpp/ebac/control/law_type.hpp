@@ -37,6 +37,9 @@ class LawOf final : public LawObject {
   void shift(double change) EBAC_RT override {
     if constexpr (requires { law_.shift(change); }) law_.shift(change);
   }
+  void scale(double by) EBAC_RT override {
+    if constexpr (requires { law_.scale(by); }) law_.scale(by);
+  }
   double starved() const EBAC_RT override { return starved_of(law_); }
   bool drained() const EBAC_RT override { return drained_of(law_); }
   bool observed() const EBAC_RT override { return observed_of(law_); }

@@ -73,6 +73,13 @@ class ObservedForce {
     dynamic_.shift(change);
   }
 
+  /// The world has become `by` times as stiff without a motion.
+  void scale(double by) EBAC_RT {
+    slope_.scale(by);
+    dynamic_.scale(by);
+    if (slope_.value() > 0) know_slope();
+  }
+
   /// Nothing is known of the contact.
   void forget() EBAC_RT {
     slope_.forget();
@@ -112,7 +119,9 @@ class ObservedForce {
     if (port.est.weight < 1) return;
     allowance_ = std::min(allowance_ + beyond_ * port.est.dx, reserve_);
     const double surface = port.world_v * port.dt;
-    if (!slope_.step(port.f_env, port.est.x_act, port.est.v_act, surface)) return;
+    if (slope_.step(port.f_env, port.est.x_act, port.est.v_act, surface)) know_slope();
+  }
+  void know_slope() EBAC_RT {
     per_slope_ = 1 / slope_.value();
     stored_at_ = std::min(show_.stiffness, slope_.value());
     enough_ = std::sqrt(slope_.value() * heaviest_);

@@ -52,6 +52,7 @@ class PerAxis : public Replaceable<Law> {
       if (take_over_.on()) return step_taking_over(axes, contact);
     }
     step_laws(axes, contact);
+    if constexpr (std::same_as<Law, AnyLaw>) take_over_.watch(axes);
   }
   void reset() EBAC_RT {
     for (Law& law : laws_) law.reset();
@@ -67,13 +68,13 @@ class PerAxis : public Replaceable<Law> {
     for (Law& law : laws_) law.retune(next);
   }
   /// Takes the gains of `next`, where it differs in nothing else; otherwise `next` takes over, without memory, from
-  /// the forces of the last tick. The laws that go are left in `next`: none is freed here.
-  void adopt(std::array<Law, kMaxAxes>& next, std::span<const Axis> axes) EBAC_RT
+  /// the force of the last tick. The laws that go are left in `next`: none is freed here.
+  void adopt(std::array<Law, kMaxAxes>& next) EBAC_RT
     requires std::same_as<Law, AnyLaw>
   {
     if (laws_[0].same_but_gains(next[0])) return retune(next[0]);
     std::swap(laws_, next);
-    take_over_.law(axes);
+    take_over_.law();
   }
   /// Another world takes over; `before` and `now` are its forces at the place of the last tick.
   void meet_another(const Axes& before, const Axes& now) EBAC_RT
@@ -131,26 +132,19 @@ class PerAxis : public Replaceable<Law> {
   }
 
   /// The energy of a contact that was changed from outside has come from nobody's hand: accounts begin anew with it. Nor
-  /// did a motion change the force.
+  /// did a motion make it stiffer.
   [[gnu::noinline]] void step_taking_over(std::span<Axis> axes, const ContactForce& contact) EBAC_RT
     requires std::same_as<Law, AnyLaw>
   {
     const ContactForce shown = take_over_.shown(contact, axes);
-    shift(axes.size(), contact, take_over_.changed());
+    for (Law& law : laws_) law.scale(take_over_.scaled());
     show(axes, shown);
     step_laws(axes, shown);
     show(axes, contact);
     take_over_.pass(axes);
+    take_over_.watch(axes);
     if (!take_over_.gave()) return;
     for (Law& law : laws_) law.begin_account();
-  }
-  /// A force that was shown has changed by `change` [N] without a motion.
-  void shift(std::size_t axes, const ContactForce& contact, const Axes& change) EBAC_RT
-    requires std::same_as<Law, AnyLaw>
-  {
-    if (axes == 1) return laws_[0].shift(change[0]);
-    const Axes along = (contact.shared ? frame_.directions() : contact.frame) * change;
-    for (std::size_t i = 0; i < axes; ++i) laws_[i].shift(along[static_cast<Eigen::Index>(i)]);
   }
   static void show(std::span<Axis> axes, const ContactForce& contact) EBAC_RT {
     for (std::size_t i = 0; i < axes.size(); ++i)

@@ -23,6 +23,10 @@ class StaticSlope {
   void shift(double change) EBAC_RT {
     if (force_ != 0) force_ += change;
   }
+  /// The world has become `by` times as stiff without a motion.
+  void scale(double by) EBAC_RT {
+    for (double* of : {&force_, &slope_, &damping_, &surely_, &df_}) *of *= by;
+  }
   void forget() EBAC_RT { *this = StaticSlope(least_); }
 
   /// Force [N] at position [m] and velocity [m/s]; `surface` is the way of the world's surface since

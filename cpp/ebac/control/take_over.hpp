@@ -12,34 +12,44 @@ namespace ebac {
 /// Another law or another world takes over while a hand is in contact: the force makes no step, and the hand is not
 /// thrown out of a place that the new contact would not have let it reach.
 ///
-///   1. The law is shown a share of the contact's force: of another world as much as the world before asked for at the
-///      same place, of another law as much as the law before gave of it. The share grows by a factor e in a quarter of a
-///      second. What stores less than a millijoule, or is a small force, throws nobody and is shown whole; so is all
-///      after a contact is lost. To the law none of this is a motion: what it remembers of the force changes with it.
+///   1. The law is shown a share of the contact's force: of another world as much as was shown of the one before at the
+///      same place, of another law as much as the law before has given of it lately. The share grows by a factor e in a
+///      quarter of a second. A contact that stores less than a millijoule is shown whole, and so is a small force, and
+///      all after a contact is lost. To the law none of this is a motion: what it remembers of the contact is scaled.
 ///   2. What the command of the first tick differs by from that of the last one fades within 50 ms, and with the force
 ///      of the contact: behind it nothing would stop the hand. A law without memory needs some ticks to reach its force,
-///      so of another law the difference is that of each tick, and the command lies between the two.
+///      so of another law the difference is that of each tick. The command lies between the law's and that of the last
+///      tick before.
 class TakeOver {
  public:
   static constexpr double kPass = 0.05;    // s
   static constexpr double kGrow = 0.25;    // s
+  static constexpr double kLately = 0.05;  // s
   static constexpr double kThrows = 1e-3;  // J
   static constexpr double kSmall = 3.5;    // N, above what the search for signs pushes with
 
-  /// Another law, from the next tick on; `axes` are those of the last one.
-  void law(std::span<const Axis> axes) EBAC_RT {
-    share_ = part(of_all(axes, &Axis::port, &Port::f_cmd), of_all(axes, &Axis::port, &Port::f_env));
-    before_ = now_ = Axes::Zero();
+  /// Another law, from the next tick on.
+  void law() EBAC_RT {
+    share_ = gives_;
+    stiffer_ = 0;
     begin(true);
   }
 
   /// Another world, from the next tick on; `before` and `now` are its forces at the place of the last one.
   void world(const Axes& before, const Axes& now) EBAC_RT {
-    const bool shown = begun_ || !another_law_;  // or else the law has been given no force yet
-    before_ = shown ? Axes(share_ * before) : Axes::Zero();
-    now_ = shown ? now : Axes::Zero();
-    share_ *= part(before, now);
+    const bool known = begun_ || !another_law_;  // or else the law has been given no force yet
+    const bool along = before.dot(now) > 0;
+    stiffer_ = known && along ? now.norm() / (share_ * before.norm()) : 0;
+    share_ = part(share_ * before, now);
+    gives_ = part(gives_ * before, now);
     begin(false);
+  }
+
+  /// After each tick: how much of the contact's force its law gives. One that swings gives little at times.
+  void watch(std::span<const Axis> axes) EBAC_RT {
+    const double now =
+        part(of_all(axes, &Axis::port, &Port::f_cmd), of_all(axes, &Axis::port, &Port::f_env));
+    gives_ = std::max(now, gives_ + (now - gives_) * axes[0].port.dt / kLately);
   }
 
   bool on() const EBAC_RT { return left_ > 0 || share_ < 1; }
@@ -49,13 +59,13 @@ class TakeOver {
   /// Before the law's step, with the forces of the last tick in `f_cmd`: the contact as the law is shown it.
   ContactForce shown(const ContactForce& contact, std::span<const Axis> axes) EBAC_RT {
     first_ = !begun_;
+    const double before = share_;
     if (first_) {
       meet(contact, axes);
-      changed_ = share_ * now_ - before_;
+      scaled_ = stiffer_ > 0 ? share_ * stiffer_ : 1;
     } else {
-      const double before = share_;
       go_on(contact, axes[0].port.dt);
-      changed_ = (share_ - before) * contact.force;
+      scaled_ = contact.force.isZero(0) ? 1 : share_ / before;
     }
     ContactForce shown = contact;
     shown.force *= share_;
@@ -64,14 +74,16 @@ class TakeOver {
     return shown;
   }
 
-  /// By how much the force that is shown has changed without a motion [N].
-  const Axes& changed() const EBAC_RT { return changed_; }
+  /// How many times as stiff the contact that is shown has become, with no motion.
+  double scaled() const EBAC_RT { return scaled_; }
 
   /// After the law's step: the command.
   void pass(std::span<Axis> axes) EBAC_RT {
     const Axes command = of_all(axes, &Axis::port, &Port::f_cmd);
     if (another_law_ || first_) own_ = command;
-    const Axes passing = command + left_ * lasts_ * (from_ - own_);
+    const Axes passing = (command + left_ * lasts_ * (from_ - own_))
+                             .cwiseMax(command.cwiseMin(from_))
+                             .cwiseMin(command.cwiseMax(from_));
     for (std::size_t i = 0; i < axes.size(); ++i)
       axes[i].port.f_cmd = passing[static_cast<Eigen::Index>(i)];
   }
@@ -121,17 +133,17 @@ class TakeOver {
   static constexpr double kLeast = 0.01;  // lets a share of zero grow
 
   bool begun_ = true;
-  bool first_ = false;           // whether this is the first tick
-  bool another_law_ = false;     // or else another world
-  double left_ = 0;              // how much of the difference
-  double share_ = 1;             // of the contact's force
-  Axes from_ = Axes::Zero();     // N, the command of the tick before
-  Axes own_ = Axes::Zero();      // N, the law's
-  Axes before_ = Axes::Zero();   // N, shown of the world before
-  Axes now_ = Axes::Zero();      // N, of the world at the same place
-  Axes changed_ = Axes::Zero();  // N
-  double lasts_ = 1;             // of the contact's force in the first tick
-  double met_ = 0;               // N, that force
+  bool first_ = false;        // whether this is the first tick
+  bool another_law_ = false;  // or else another world
+  double left_ = 0;           // how much of the difference
+  double share_ = 1;          // of the contact's force
+  double gives_ = 1;          // of that force, what the law has given lately
+  Axes from_ = Axes::Zero();  // N, the command of the tick before
+  Axes own_ = Axes::Zero();   // N, the law's
+  double stiffer_ = 0;  // of the world to what was shown of the one before; 0 where nothing was
+  double scaled_ = 1;
+  double lasts_ = 1;  // of the contact's force in the first tick
+  double met_ = 0;    // N, that force
 };
 
 }  // namespace ebac

@@ -114,9 +114,9 @@ class ParameterUpdates {
   template <class AnyLaw, class Chain, class Device>
   void apply(std::int64_t tick, AnyLaw& law, Chain& chain, Device& device, std::span<Axis> axes,
              double t) EBAC_RT {
-    if constexpr (requires(Sent& s) { law.adopt(s, axes); }) {
+    if constexpr (requires(Sent& s) { law.adopt(s); }) {
       if (auto* message = law_.take()) {
-        law.adopt(message->value, axes);
+        law.adopt(message->value);
         chain.act(law.observed());
         applied_.add({tick, message->serial, UpdateOf::kLaw});
       }
