@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import dataclasses
 import inspect
-import re
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any, ClassVar, Protocol, TypeAlias, cast, runtime_checkable
 
@@ -27,6 +26,7 @@ from ebac._core import (
 )
 from ebac._util.arguments import refuse_unknown, require, shown, unknown_name
 from ebac._util.copying import refuse_uncopyable
+from ebac._util.design_errors import by_cause
 from ebac._util.wrong_calls import plain_constructor
 from ebac.tuned_laws import tuned, tuned_laws
 
@@ -197,7 +197,7 @@ def design(
         try:
             return _class_of(law).design(device, timing, **changes)
         except ValueError as error:
-            raise ValueError(_by_cause(str(error), device, changes)) from None
+            raise ValueError(by_cause(str(error), device, changes)) from None
     if changes:
         raise TypeError(f"{law!r} is finished: make it with {', '.join(changes)}, or give its name")
     return checked(law)
@@ -241,32 +241,6 @@ def checked(law: Any) -> CoreLaw | PythonLaw:
             ) from None
     refuse_uncopyable(law, "law")
     return law
-
-
-def _by_cause(message: str, device: Device | DeviceFacts, changes: Mapping[str, Any]) -> str:
-    """Return what is wrong with a design, by the number of the device that it follows from."""
-    found = re.match(r"(\w+\.(force_noise|damping)) = \S+ N(?: s/m)?: (.*)", message)
-    if found is None or found[2] in changes or not isinstance(device, Device):
-        return message
-    if found[2] == "damping":
-        return _spent_by_compensation(device, found[1]) or message
-    noise = device.sensor.noise
-    return f"ForceSensor.noise = {noise:g} N: {found[3]}, as {found[1]} follows from it"
-
-
-def _spent_by_compensation(device: Device, parameter: str) -> str | None:
-    """Return which compensation takes the damping that a law is designed from, if one does."""
-    given, mechanics, left = device.compensation, device.mechanics, device.facts.damping
-    leaves = f"leaves {left:.3g} N s/m of the device's damping of {mechanics.damping:g} N s/m for {parameter}"
-    if given.friction > mechanics.coulomb:
-        return (
-            f"Compensation.friction = {given.friction:g} N: more than the Coulomb friction of the device, "
-            f"{mechanics.coulomb:g} N, which {leaves}; compensate less, or declare the friction that is surely there"
-        )
-    if given.inertia > 0:
-        remedy = "compensate less, or raise Compensation.inertia_lag"
-        return f"Compensation.inertia = {given.inertia:g} kg: {leaves}; {remedy}"
-    return None
 
 
 def changed(law: AnyLaw, **changes: Any) -> AnyLaw:
