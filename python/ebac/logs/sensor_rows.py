@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,8 +18,10 @@ ERROR = 3
 
 def force_age(recorded: Trace, dt: NDArray[np.float64]) -> NDArray[np.float64]:
     """Return the age of each row's force [s]: as recorded, or by the times at which a simulated sensor sends."""
-    if "ft.age" in recorded or not _simulated(recorded):
-        return _first_axis(recorded, "ft.age").astype(float)
+    if "ft.age" in recorded:
+        return recorded.axis("ft.age").astype(float)
+    if not _simulated(recorded):
+        return np.zeros(len(recorded))
     sensor, t = _sensor(recorded), _device_time(recorded, dt)
     stopped = _stopped(sensor, t)
     sent = np.floor(t / sensor.period) * sensor.period if sensor.period > 0 else t
@@ -35,8 +37,10 @@ def force_status(recorded: Trace, dt: NDArray[np.float64]) -> NDArray[np.uint32]
         bad = force >= sensor.range
         if sensor.disconnects:
             bad |= _stopped(sensor, _device_time(recorded, dt))
+    elif "est.fallback" in recorded:
+        bad = recorded.axis("est.fallback") == int(_core.Fallback.FORCE_STATUS)
     else:
-        bad = _first_axis(recorded, "est.fallback") == int(_core.Fallback.FORCE_STATUS)
+        bad = np.zeros(len(recorded), dtype=bool)
     return np.where(bad, ERROR, 0).astype(np.uint32)
 
 
@@ -56,10 +60,3 @@ def _sensor(recorded: Trace) -> _core.ForceSensor:
 
 def _stopped(sensor: _core.ForceSensor, t: NDArray[np.float64]) -> NDArray[np.bool_]:
     return (t >= sensor.stops_at) & (t < sensor.resumes_at)
-
-
-def _first_axis(recorded: Trace, column: str) -> NDArray[Any]:
-    """Return a column that is the same on every axis; zeros where the log has none."""
-    if column not in recorded:
-        return np.zeros(len(recorded))
-    return recorded[column].reshape(len(recorded), -1)[:, 0]
