@@ -92,7 +92,7 @@ RunSetup make_setup(const DeviceModel& device, const Environment& environment, d
 using Told = std::tuple<std::int64_t, std::uint64_t, std::string>;
 
 /// Changes from number `start` on: from which tick, serial number, of what.
-std::vector<Told> changes_from(const Running& run, std::size_t start) {
+std::vector<Told> changes_from(Running& run, std::size_t start) {
   const auto name = [](UpdateOf what) {
     switch (what) {
       case UpdateOf::kLaw:
@@ -107,7 +107,8 @@ std::vector<Told> changes_from(const Running& run, std::size_t start) {
     return "";
   };
   std::vector<Told> told;
-  const AppliedUpdates& changes = run.changes();
+  AppliedUpdates& changes = run.changes();
+  changes.read(start);
   for (std::size_t i = start; i < changes.size(); ++i) {
     told.emplace_back(changes[i].tick, changes[i].serial, name(changes[i].what));
   }
@@ -211,7 +212,8 @@ void bind_running_class(py::module_& m) {
           py::arg("target"),
           "Set the target of a simulated hand [m]; NaN leaves an axis unchanged.")
       .def("changes", &changes_from, py::arg("start") = 0,
-           "Return the applied updates: (tick, serial number, parameter).")
+           "Return the applied updates from number `start` on, and forget those before: (tick, serial "
+           "number, parameter).")
       .def_property_readonly(
           "changes_lost", [](const Running& run) { return run.changes().lost(); },
           "Updates that were applied but not recorded.");

@@ -71,7 +71,7 @@ class Running {
   virtual std::vector<rt::Grant> grants() const { return {}; }
   virtual can::BusCounts bus() const { return {}; }
   const std::shared_ptr<Trace>& trace() const { return trace_; }
-  const AppliedUpdates& changes() const { return updates_->applied(); }
+  AppliedUpdates& changes() const { return updates_->applied(); }
 
   std::uint64_t retune(const AnyLaw& next);
   /// Another law, whose force is blended in. Throws std::invalid_argument for one that no loop may run.

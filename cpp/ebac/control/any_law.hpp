@@ -42,6 +42,7 @@ class LawObject {
   virtual void retune(const LawObject& next) EBAC_RT = 0;
   /// Its energy account, if it has one, gets what the contact it is in stores.
   virtual void begin_account() EBAC_RT {}
+  virtual void store(double, double) EBAC_RT {}
   /// What its energy account, if it has one, holds beyond its reserve [J], and another such amount for it.
   virtual double surplus() const EBAC_RT { return 0; }
   virtual void settle(double) EBAC_RT {}
@@ -101,6 +102,7 @@ class AnyLaw {
   }
 
   void begin_account() EBAC_RT { law_->begin_account(); }
+  void store(double part, double in_all) EBAC_RT { law_->store(part, in_all); }
   double surplus() const EBAC_RT { return law_->surplus(); }
   void settle(double surplus) EBAC_RT { law_->settle(surplus); }
   void shift(double change) EBAC_RT { law_->shift(change); }

@@ -64,9 +64,15 @@ class Ebac {
     return command;
   }
 
-  /// After the contact was changed from outside, by another law or world, which no motion has paid for: the account
-  /// begins anew and is raised to what this contact stores, while it lasts.
-  void begin_account() EBAC_RT { shared_.ledger.begin(shared_.f_env, stored_at()); }
+  /// After this law has taken over from another: the account begins anew and is raised to what this contact stores,
+  /// while it lasts.
+  void begin_account() EBAC_RT { shared_.ledger.begin(stored()); }
+  /// Of what this contact stores, `part` has come in this tick with no motion, as another world takes over; below zero
+  /// where it stored more before. At the end, when `in_all` has come, that much of what the account lacks is owed.
+  void store(double part, double in_all) EBAC_RT {
+    shared_.ledger.store(part * stored());
+    if (in_all > 0) shared_.ledger.owe(stored(), in_all * stored());
+  }
   /// What the account holds beyond its reserve [J], and another such amount for it.
   double surplus() const EBAC_RT { return shared_.ledger.surplus(); }
   void settle(double surplus) EBAC_RT { shared_.ledger.settle(surplus); }
@@ -109,8 +115,10 @@ class Ebac {
   void pay(const Port& port) EBAC_RT {
     if (port.f_env == 0) return shared_.ledger.forgive();
     shared_.ledger.pay();
-    shared_.state.starved = 0;
+    if (shared_.ledger.owed() > 0) shared_.state.starved = 0;
   }
+
+  double stored() const EBAC_RT { return shared_.f_env * shared_.f_env / (2 * stored_at()); }  // J
 
   double stored_at() const EBAC_RT {
     return weight_ < 1 ? encoder_.stored_at() : observer_.stored_at();

@@ -73,10 +73,23 @@ class EnergyLedger {
   double surplus() const EBAC_RT { return energy_ - reserve_; }
   void settle(double surplus) EBAC_RT { energy_ = reserve_ + surplus; }
 
-  /// Begins anew, and owes what is missing to what a contact of `force` on `stiffness` stores.
-  void begin(double force, double stiffness) EBAC_RT {
+  /// Begins anew, and owes what is missing to what a contact stores [J].
+  void begin(double stored) EBAC_RT {
     energy_ = std::max(energy_, reserve_);
-    owed_ = std::max(0.0, reserve_ + force * force / (2 * stiffness) - energy_);
+    owed_ = std::max(0.0, reserve_ + stored - energy_);
+  }
+  /// A contact stores `more` [J] than before, with no motion: it is owed, and paid at once as far as the reserve is
+  /// drawn on. Less is taken back, but not the reserve.
+  void store(double more) EBAC_RT {
+    owed_ += more;
+    const double at_once = owed_ > 0 ? std::min(owed_, std::max(0.0, reserve_ - energy_))
+                                     : -std::min(-owed_, std::max(0.0, energy_ - reserve_));
+    energy_ += at_once;
+    owed_ = std::max(0.0, owed_ - at_once);
+  }
+  /// What is missing to what a contact stores is owed, at most `most` [J].
+  void owe(double stored, double most) EBAC_RT {
+    owed_ = std::max(owed_, std::min(most, reserve_ + stored - energy_));
   }
   double owed() const EBAC_RT { return owed_; }  // J
   /// Pays a part of what it owes: so slowly that nothing is thrown.

@@ -27,6 +27,9 @@ class LawOf final : public LawObject {
   void begin_account() EBAC_RT override {
     if constexpr (requires { law_.begin_account(); }) law_.begin_account();
   }
+  void store(double part, double in_all) EBAC_RT override {
+    if constexpr (requires { law_.store(part, in_all); }) law_.store(part, in_all);
+  }
   double surplus() const EBAC_RT override {
     if constexpr (requires { law_.surplus(); }) return law_.surplus();
     return 0;

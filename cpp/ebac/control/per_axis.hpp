@@ -131,8 +131,7 @@ class PerAxis : public Replaceable<Law> {
     }
   }
 
-  /// The energy of a contact that was changed from outside has come from nobody's hand: accounts begin anew with it. Nor
-  /// did a motion make it stiffer.
+  /// What a contact stores by a change from outside has come from nobody's hand. Nor did a motion make it stiffer.
   [[gnu::noinline]] void step_taking_over(std::span<Axis> axes, const ContactForce& contact) EBAC_RT
     requires std::same_as<Law, AnyLaw>
   {
@@ -143,8 +142,12 @@ class PerAxis : public Replaceable<Law> {
     show(axes, contact);
     take_over_.pass(axes);
     take_over_.watch(axes);
-    if (!take_over_.gave()) return;
-    for (Law& law : laws_) law.begin_account();
+    for (Law& law : laws_) {
+      if (take_over_.another_law())
+        law.begin_account();
+      else
+        law.store(take_over_.came(), take_over_.in_all());
+    }
   }
   static void show(std::span<Axis> axes, const ContactForce& contact) EBAC_RT {
     for (std::size_t i = 0; i < axes.size(); ++i)

@@ -24,29 +24,33 @@ struct AppliedUpdate {
   UpdateOf what = UpdateOf::kLaw;
 };
 
-/// The updates applied in a run, beside its trace: written by the loop, readable from any thread.
+/// The updates applied in a run, beside its trace: written by the loop, read by one thread at a time. Up to 4096
+/// that were not read are kept.
 class AppliedUpdates {
  public:
   static constexpr std::size_t kMost = 4096;
 
   void add(const AppliedUpdate& change) EBAC_RT {
     const std::size_t n = count_.load(std::memory_order_relaxed);
-    if (n == kMost) {
+    if (n - read_.load(std::memory_order_acquire) == kMost) {
       lost_.store(lost_.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
       return;
     }
-    all_[n] = change;
+    all_[n % kMost] = change;
     count_.store(n + 1, std::memory_order_release);
   }
 
   std::size_t size() const EBAC_RT { return count_.load(std::memory_order_acquire); }
-  const AppliedUpdate& operator[](std::size_t i) const EBAC_RT { return all_[i]; }
-  /// Updates that were applied but not recorded, because this list was full.
+  const AppliedUpdate& operator[](std::size_t i) const EBAC_RT { return all_[i % kMost]; }
+  /// All before number `i` were read: their places are used again.
+  void read(std::size_t i) EBAC_RT { read_.store(i, std::memory_order_release); }
+  /// Updates that were applied but not recorded, because nobody read those before.
   std::size_t lost() const EBAC_RT { return lost_.load(std::memory_order_relaxed); }
 
  private:
   std::array<AppliedUpdate, kMost> all_{};
   std::atomic<std::size_t> count_{0};
+  std::atomic<std::size_t> read_{0};
   std::atomic<std::size_t> lost_{0};
 };
 
@@ -107,6 +111,7 @@ class ParameterUpdates {
 
   bool at_once() const EBAC_RT { return at_once_.load(std::memory_order_acquire); }
   bool stop_asked() const EBAC_RT { return stop_.load(std::memory_order_acquire); }
+  AppliedUpdates& applied() EBAC_RT { return applied_; }
   const AppliedUpdates& applied() const EBAC_RT { return applied_; }
 
   /// Called by the loop: passes every new value to `law`, `chain` or `device`; `axes` and `t` are those of the last

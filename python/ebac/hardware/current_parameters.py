@@ -3,17 +3,19 @@
 from __future__ import annotations
 
 from math import nan
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, get_args
 
 from ebac._core import Recorded, Step, _World
+from ebac._util.arguments import require, whole
 from ebac._util.foreign_worlds import refuse_python
 from ebac.hardware.parameter_updates import Note, ParameterUpdates
+from ebac.scenario import Environment
 
 if TYPE_CHECKING:
     from ebac import _core
     from ebac._core import Hand
     from ebac.laws import CoreLaw
-    from ebac.scenario import Environment, Scenario
+    from ebac.scenario import Scenario
 
 #: What a mailbox has room for.
 _MOST_AXES = 3
@@ -37,6 +39,7 @@ class CurrentParameters:
         self.target: tuple[float | None, ...] = (None,) * scenario.device.axes
         self.updates = ParameterUpdates(running, scenario.timing.dt)
         self._running = running
+        self._dt = scenario.timing.dt
         self._hand = scenario.hand if hand else None
 
     def retune(self, **changes: Any) -> CoreLaw:
@@ -49,7 +52,7 @@ class CurrentParameters:
             message=f"law {after.name}: {', '.join(parts)}",
             values={f"law.{name}": value for name, value in changes.items()},
         )
-        self.updates.send(lambda: self._running.retune(after), note)
+        self.updates.send("law", lambda: self._running.retune(after), note)
         self.law = after
         return after
 
@@ -57,8 +60,13 @@ class CurrentParameters:
         """Send another law."""
         if not hasattr(law, "_start"):
             raise TypeError(f"{law!r}: must be one of the library's laws compiled in C++")
+        if law.timing.dt != self._dt:
+            raise ValueError(
+                f"law.timing.dt = {law.timing.dt:g} s: the loop has a tick every {self._dt:g} s; design the law with "
+                "the timing of the run"
+            )
         note = Note(message=f"law {self.law.name} -> {law!r}", values={"law": law.name})
-        self.updates.send(lambda: self._running.replace_law(law), note)
+        self.updates.send("law", lambda: self._running.replace_law(law), note)
         self.law = law
         return law
 
@@ -69,17 +77,21 @@ class CurrentParameters:
                 "hold_back: the drives are real, and a command to rest must not come late; open them with "
                 "simulate=True (ebac run --simulated)"
             )
+        ticks = whole("hold_back", ticks)
         if isinstance(ticks, bool) or not 0 <= ticks <= MOST_HELD_BACK:
             raise ValueError(
                 f"hold_back = {ticks} samples: must lie in [0, {MOST_HELD_BACK}] samples"
             )
         note = Note(message=f"commands held back by {ticks} samples", values={"delay_ticks": ticks})
-        self.updates.send(lambda: self._running.hold_back(ticks), note)
+        self.updates.send("delay", lambda: self._running.hold_back(ticks), note)
         return ticks
 
     def change(self, environment: Environment | None, **changes: Any) -> Environment:
         """Send another world, or the present one with other numbers."""
         world = self.world if environment is None else environment
+        require(
+            world, get_args(Environment), "change", "a world, as ebac.Wall or one of ebac.worlds"
+        )
         refuse_python(world)
         if changes:
             world = changed(world, **changes)
@@ -87,7 +99,7 @@ class CurrentParameters:
             message=f"environment {world!r}",
             values={f"environment.{name}": value for name, value in changes.items()},
         )
-        self.updates.send(lambda: self._running.change_world(world), note)
+        self.updates.send("environment", lambda: self._running.change_world(world), note)
         self.world = world
         return world
 
@@ -100,7 +112,7 @@ class CurrentParameters:
         values = {name: one for name, one in zip(names, target, strict=True) if one is not None}
         shown = ", ".join("as before" if one is None else f"{one:g} m" for one in wanted)
         note = Note(message=f"hand target: {shown}", values=values)
-        self.updates.send(lambda: self._running.aim(places), note)
+        self.updates.send("target", lambda: self._running.aim(places), note)
         self.target = wanted
         return wanted
 
@@ -117,6 +129,9 @@ def changed(world: Environment, **changes: float) -> Environment:
         raise ValueError(
             f"environment.{', '.join(changes)}: a world of bodies is changed as a whole; give environment=..."
         )
+    for name, value in changes.items():
+        if isinstance(value, bool):
+            raise TypeError(f"environment.{name} = {value}: must be a number in SI units")
     return world.replace(**changes)
 
 

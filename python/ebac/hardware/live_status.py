@@ -85,6 +85,7 @@ class LiveStatus:
             law=self.law.name,
             law_repr=repr(self.law),
             origin=self._origin,
+            changed=self._parameters.updates.sent,
         )
 
     @property
@@ -103,4 +104,5 @@ class LiveStatus:
             law=self.law.name,
             law_repr=repr(self.law),
             origin=self._origin,
+            changed=self._parameters.updates.sent,
         )

@@ -26,14 +26,25 @@ class ParameterUpdates:
     def __init__(self, running: _core.Running, dt: float) -> None:
         self._running = running
         self._dt = dt
-        self._notes: dict[int, Note] = {}
+        self._notes: dict[int, tuple[str, Note]] = {}
         self._seen = 0
+        self.sent = False
         self._lock = threading.Lock()
 
-    def send(self, post: Callable[[], int], note: Note) -> None:
-        """Send a value by `post`, which returns its serial number."""
+    def send(self, what: str, post: Callable[[], int], note: Note) -> None:
+        """Send a value of `what` by `post`, which returns its serial number."""
         with self._lock:  # nobody asks for the note before it is there
-            self._notes[post()] = note
+            self._notes[post()] = what, note
+            self.sent = True
+
+    def _note(self, what: str, serial: int) -> Note:
+        """Return the note of a value that was taken, and forget those that it replaced before they were."""
+        with self._lock:
+            _, note = self._notes.pop(serial, (what, Note(message=what)))
+            replaced = [s for s, (other, _) in self._notes.items() if other == what and s < serial]
+            for one in replaced:
+                del self._notes[one]
+        return note
 
     def events(self) -> list[Event]:
         """Return what the loop has taken since the last call, once the rows of it are there."""
@@ -43,8 +54,7 @@ class ParameterUpdates:
             if tick >= count and not self._running.done:
                 break
             self._seen += 1
-            with self._lock:
-                note = self._notes.pop(serial, Note(message=what))
+            note = self._note(what, serial)
             found.append(
                 Event(
                     kind="parameter",

@@ -66,6 +66,8 @@ class About:
         Name of the law; the law with its parameters, as Python text.
     scenario : Scenario or None
         Attached as `scenario.toml`.
+    changed : bool
+        Whether the trace was changed on its way, see `Trace`; of a log of a run its events tell.
     start_ns : int
         When t was 0, in nanoseconds since 1970 (UTC); 0 for a simulation, whose time is its own.
     files : mapping of str to str
@@ -78,6 +80,7 @@ class About:
     law: str = ""
     law_repr: str = ""
     scenario: Scenario | None = None
+    changed: bool = False
     start_ns: int = 0
     files: Mapping[str, str] = field(default_factory=dict)
     made_by: Mapping[str, str] = field(default_factory=versions)
@@ -96,6 +99,7 @@ class About:
             "law": self.law,
             "law_repr": self.law_repr,
             "start_ns": str(self.start_ns),
+            **({"changed": "true"} if self.changed else {}),
             **self.made_by,
         }
 

@@ -29,6 +29,7 @@ def facts(trace: Trace) -> dict[str, str]:
         "origin": trace.origin,
         "axes": str(trace.axes),
         "scenario": text_for_file(trace.scenario),
+        **({"changed": "true"} if trace.changed else {}),
         **versions(),
     }
 

@@ -220,5 +220,6 @@ def about_trace(trace: Trace, files: Mapping[str, str]) -> About:
         law=trace.law,
         law_repr=trace.law_repr,
         scenario=trace.scenario,
+        changed=trace.changed,
         files={**simulated, **files},
     )

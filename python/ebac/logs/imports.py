@@ -101,6 +101,7 @@ def _trace(
         law=about.get("law", ""),
         law_repr=about.get("law_repr", ""),
         origin=about.get("origin", ""),
+        changed=about.get("changed", "") == "true",
     )
 
 

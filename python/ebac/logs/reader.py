@@ -252,6 +252,7 @@ def _log(path: Path, found: _Found, condition: Condition, size: int) -> Log:
         law=about.law,
         law_repr=about.law_repr,
         origin=about.origin,
+        changed=about.changed or any(event.kind == "parameter" for event in found.events),
     )
     return Log(
         path=path,
@@ -274,7 +275,8 @@ def whole(text: str) -> int | None:
 def _about(found: _Found, condition: Condition, axes: int) -> About:
     metadata = dict(found.metadata.get("ebac", {}))
     own = {
-        name: metadata.pop(name, "") for name in ("format", "axes", "law", "law_repr", "start_ns")
+        name: metadata.pop(name, "")
+        for name in ("format", "axes", "law", "law_repr", "start_ns", "changed")
     }
     files = dict(found.files)
     scenario = None
@@ -289,6 +291,7 @@ def _about(found: _Found, condition: Condition, axes: int) -> About:
         law=own["law"],
         law_repr=own["law_repr"],
         scenario=scenario,
+        changed=own["changed"] == "true",
         start_ns=whole(own["start_ns"]) or 0,
         files=files,
         made_by=metadata,

@@ -67,6 +67,8 @@ def contact(trace: Trace, *, axis: int = 0, truth: bool = True) -> Contact:
         Whether to take what a simulation knows, where the trace has it; False measures it by its readings, as a
         recorded run is measured.
 
+    A trace that was `changed` on its way has no ideal rest: it is measured, and not judged exact.
+
     Returns
     -------
     Contact
@@ -84,15 +86,16 @@ def contact(trace: Trace, *, axis: int = 0, truth: bool = True) -> Contact:
     true, with_energy = (truth and name in trace for name in ("true.x", "true.energy"))
     energy = _columns(trace, "true.energy").sum(axis=1) if with_energy else None
     stored = None
-    if trace.scenario is not None and true and _known(trace.scenario.environment):
-        world = without_engine(trace.scenario).environment
-        kinematics = trace.scenario.device.kinematics
+    scenario = trace.scenario
+    if scenario is not None and true and not trace.changed and _known(scenario.environment):
+        world = without_engine(scenario).environment
+        kinematics = scenario.device.kinematics
         stored = _stored_energy(world, kinematics, _columns(trace, "true.x"), trace["t"])
     clamped = trace.axis("law.clamped", axis) if "law.clamped" in trace else None
     pull = None
-    if trace.scenario is not None and true:
+    if scenario is not None and true:
         acts = [trace.axis(name, axis) != 0 for name in ("f_env", "f_cmd", "f_applied")]
-        hand, x = trace.scenario.hand, trace.axis("true.x", axis)
+        hand, x = scenario.hand, trace.axis("true.x", axis)
         if not is_own(hand.model):
             pull = np.where(np.any(acts, axis=0), hand.pull(trace["t"], x, axis), 0.0)
     numbers: Any = _measure_contact(
@@ -108,11 +111,10 @@ def contact(trace: Trace, *, axis: int = 0, truth: bool = True) -> Contact:
         name: None if isnan(value) else value for name, value in numbers.items()
     }
     known["jumps"] = int(known["jumps"])
-    scenario = trace.scenario
     simulated = scenario is not None and "true.x" in trace
     return Contact(
         law=trace.law,
-        ideal_m=ideal_rest(scenario) if scenario and axis == 0 else None,
+        ideal_m=ideal_rest(scenario) if scenario and axis == 0 and not trace.changed else None,
         count_m=scenario.device.count if scenario else None,
         allowed_m=allowed_deviation(scenario) if scenario else None,
         seconds=float(trace["t"][-1] - trace["t"][0]),

@@ -181,6 +181,7 @@ def _part(trace: Trace, columns: Sequence[str], every: int) -> Trace:
         law=trace.law,
         law_repr=trace.law_repr,
         origin=trace.origin,
+        changed=trace.changed,
     )
 
 

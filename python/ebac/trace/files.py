@@ -54,6 +54,7 @@ def write_npz(trace: Trace, path: str | Path) -> None:
         "law": trace.law,
         "law_repr": trace.law_repr,
         "origin": trace.origin,
+        "changed": trace.changed,
         "scenario": text_for_file(trace.scenario) or None,
         "columns": {c.name: [c.unit, c.meaning] for c in trace.columns.values()},
     }
@@ -94,6 +95,7 @@ def npz_parts(path: str | Path) -> dict[str, Any]:
         "law": about["law"],
         "law_repr": about["law_repr"],
         "origin": about.get("origin", ""),
+        "changed": about.get("changed", False),
     }
 
 

@@ -30,7 +30,9 @@ class Trace:
 
     `trace["x"]` is a NumPy view of the rows as the loop wrote them, shape (rows,) for one axis and for
     columns of the whole row, (rows, axes) otherwise. `trace[1.0:2.5]` is the part between two times [s], without a
-    copy. Columns `law.*` are the law's own state, columns `true.*` what only a simulation can know.
+    copy. Columns `law.*` are the law's own state, columns `true.*` what only a simulation can know. `changed` tells
+    whether law, world, delay or the hand's target were changed on the way, so that `scenario` is that of the first rows
+    alone.
     """
 
     def __init__(
@@ -43,6 +45,7 @@ class Trace:
         law: str = "",
         law_repr: str = "",
         origin: str = "",
+        changed: bool = False,
     ) -> None:
         self._data = data
         self.columns = columns
@@ -51,6 +54,7 @@ class Trace:
         self.law = law
         self.law_repr = law_repr
         self._origin = origin
+        self.changed = changed
 
     @classmethod
     def from_rows(
@@ -61,6 +65,7 @@ class Trace:
         law: str,
         law_repr: str,
         origin: str = "",
+        changed: bool = False,
     ) -> Self:
         """Look at rows of the core."""
         data, columns = row_views(rows, rows.bytes()), column_infos(rows)
@@ -72,6 +77,7 @@ class Trace:
             law=law,
             law_repr=law_repr,
             origin=origin,
+            changed=changed,
         )
 
     @property

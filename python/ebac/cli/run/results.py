@@ -159,6 +159,7 @@ class Result:
             observer=None if self.observer is None else asdict(self.observer),
             times=None if self.times is None else asdict(self.times),
             fault=self.fault,
+            changed=self.changed,
             engine=None if self.engine is None else self.engine.row(),
             **self.report.row(),
         )
