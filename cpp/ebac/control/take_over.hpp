@@ -18,7 +18,7 @@ namespace ebac {
 ///      all after a contact is lost. To the law none of this is a motion: what it remembers of the contact is scaled.
 ///   2. What the change makes the command of the first tick differ by from that of the last one fades within 50 ms, and
 ///      with the force of the contact: behind it nothing would stop the hand. Of another world that is at most what its
-///      force differs by at the same place. A law without memory needs some ticks to reach its force, so of another law
+///      force differs by at the same place (in a contact of several axes all, for their directions begin anew). A law without memory needs some ticks to reach its force, so of another law
 ///      the difference is that of each tick, of the part of the force that was there in the first one; it ends where a
 ///      contact begins. The command lies between the law's and that of the last tick before.
 ///   3. What the contact stores by the change, or no longer stores, no motion has paid for: accounts are told.
@@ -100,7 +100,8 @@ class TakeOver {
       differs_ = from_ - was_there_ * command;
     } else if (first_) {
       const Axes most = before_ - share_ * now_ + (1 - axes[0].port.dt / kPass) * passing_;
-      differs_ = between(from_ - command, Axes::Zero(), most);
+      differs_ = from_ - command;
+      if (axes.size() == 1 || !touched_) differs_ = between(differs_, Axes::Zero(), most);
     }
     const Axes passed = between(command + left_ * lasts_ * differs_, command, from_);
     passing_ = passed - command;

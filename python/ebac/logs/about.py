@@ -67,7 +67,7 @@ class About:
     scenario : Scenario or None
         Attached as `scenario.toml`.
     changed : bool
-        Whether the trace was changed on its way, see `Trace`; of a log of a run its events tell.
+        Whether law, world, delay or the hand's target were changed during the run; a log of a run has events of it.
     start_ns : int
         When t was 0, in nanoseconds since 1970 (UTC); 0 for a simulation, whose time is its own.
     files : mapping of str to str

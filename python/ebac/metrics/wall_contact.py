@@ -67,7 +67,7 @@ def contact(trace: Trace, *, axis: int = 0, truth: bool = True) -> Contact:
         Whether to take what a simulation knows, where the trace has it; False measures it by its readings, as a
         recorded run is measured.
 
-    A trace that was `changed` on its way has no ideal rest: it is measured, and not judged exact.
+    A trace that was `changed` during its run has no ideal rest: it is measured, and not judged exact.
 
     Returns
     -------

@@ -30,9 +30,8 @@ class Trace:
 
     `trace["x"]` is a NumPy view of the rows as the loop wrote them, shape (rows,) for one axis and for
     columns of the whole row, (rows, axes) otherwise. `trace[1.0:2.5]` is the part between two times [s], without a
-    copy. Columns `law.*` are the law's own state, columns `true.*` what only a simulation can know. `changed` tells
-    whether law, world, delay or the hand's target were changed on the way, so that `scenario` is that of the first rows
-    alone.
+    copy. Columns `law.*` are the law's own state, columns `true.*` what only a simulation can know. `changed`: whether
+    law, world, delay or the hand's target were changed during the run; `scenario` then holds for the first rows alone.
     """
 
     def __init__(
