@@ -111,7 +111,7 @@ def test_no_order_makes_a_step_of_the_force_and_each_is_noted(session: Session) 
             assert session.change(**order) is False
             session.advance(0.16)
             force = run.tail(run.ticks - before + 1).axis("f_cmd", 0)
-            assert abs(force[1] - force[0]) < 0.01, order  # N
+            assert abs(force[1] - force[0]) < 0.05, order  # N
         assert session.run is run
         ticks = [tick for tick, _, _ in run._running.changes(0)]
         assert ticks == [2000 + 160 * k for k in range(len(orders))]
