@@ -19,6 +19,7 @@ from hypothesis import strategies as st
 from ebac import _core, drives
 from ebac.drives import Command, State
 from ebac.drives.objects import known
+from ebac.drives.who_answers import naming_who_answers
 
 #: Reads of the test that hammers; EBAC_DRIVE_READS=100000 for all that was promised.
 READS = int(os.environ.get("EBAC_DRIVE_READS", "2000"))
@@ -275,6 +276,20 @@ def test_silence_on_a_silent_bus_names_what_to_check() -> None:
     )
     for word in ("termination", "power", "node id", "interface is up"):
         assert word in said
+
+
+def test_silence_on_a_bus_of_new_drives_names_those_that_answer_when_asked(
+    bus: drives.DriveBus,
+) -> None:
+    with pytest.raises(drives.NoAnswer) as caught, naming_who_answers(bus):
+        bus.drive(7, timeout=0.02).read("statusword")
+    said = str(caught.value)
+    assert (
+        "(reading statusword (0x6041)). On the bus meanwhile: nothing, but nodes 1, 2 answer"
+        in said
+    )
+    assert "Check: 1. the node id: nodes 1, 2 answer, node 7 does not" in said
+    assert "bit rate of interface" not in said
 
 
 def test_silence_of_one_node_among_others_points_at_its_id(bus: drives.DriveBus) -> None:

@@ -92,6 +92,8 @@ def test_all_that_a_drive_lacks_is_listed_at_once_with_its_keys() -> None:
     for part in expected:
         assert part in str(offline.value)
         assert part in str(online.value)
+    for said in (str(offline.value), str(online.value)):
+        assert said.index("Is this the right profile") < said.index("It lacks: ")
     assert len(online.value.lacking) == 9
 
 

@@ -211,6 +211,15 @@ def test_info_shows_law_and_parameters_for_people(tmp_path: Path) -> None:
     assert "EBAC(" not in shown
 
 
+def test_info_shows_words_of_a_drive_in_hexadecimal_and_by_name(tmp_path: Path) -> None:
+    path = tmp_path / "run.npz"
+    ebac.simulate(ebac.Scenario(seconds=0.1), "direct", through="can").save(path)
+    shown = " ".join(invoke("info", path).split())
+    assert shown.count("0x1237 (operation") == shown.count("enabled)") == 2
+    assert "bus.controlword 0x000F 0x000F" in shown
+    assert "bus.emergency 0 0" in shown
+
+
 def test_info_of_a_log_that_was_cut(recorded: Path) -> None:
     whole = recorded.read_bytes()
     recorded.write_bytes(whole[:-30])

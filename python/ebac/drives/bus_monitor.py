@@ -15,6 +15,8 @@ from ebac.drives.errors import BusError
 if TYPE_CHECKING:
     import can
 
+#: What `describe` says of a bus on which no frame came.
+NO_FRAME = "nothing at all"
 #: NMT states in a heartbeat (CiA 301).
 NMT_STATES = {0x00: "boot-up", 0x04: "stopped", 0x05: "operational", 0x7F: "pre-operational"}
 #: Frames remembered, and emergencies of each node.
@@ -157,7 +159,7 @@ class BusMonitor:
             return ", ".join(parts)
         before = self.nodes()
         names = f"node{'s' if len(before) > 1 else ''} {', '.join(str(node) for node in before)}"
-        return f"nothing; before that {names}" if before else "nothing at all"
+        return f"nothing; before that {names}" if before else NO_FRAME
 
     def advice(self, node: int, start: float) -> list[str]:
         """Return what to check when `node` did not answer since `start` [s, monotonic]."""

@@ -44,7 +44,19 @@ class NoAnswer(DriveError):
             f"On the bus meanwhile: {traffic}. Check: {checks}",
             node=node,
         )
-        self.traffic = traffic
+        self.what, self.seconds, self.traffic = what, seconds, traffic
+
+    def beside(self, others: Sequence[int]) -> NoAnswer:
+        """Return the same error on a bus on which other nodes answer when they are asked."""
+        assert self.node is not None
+        names = ", ".join(str(node) for node in others)
+        who = f"node {names} answers" if len(others) == 1 else f"nodes {names} answer"
+        check = (
+            f"the node id: {who}, node {self.node} does not; change the id of the drive or that of the network file",
+            f"power of drive {self.node}, its bit rate and its CAN connector",
+        )
+        traffic = f"nothing, but {who} when asked"
+        return NoAnswer(self.node, self.what, self.seconds, traffic=traffic, check=check)
 
 
 class Refused(DriveError):
@@ -91,9 +103,9 @@ def lacks(lacking: Sequence[tuple[Object, str]]) -> str:
         f"{obj.where} {obj.name}" + (f" (key {key})" if key else "") for obj, key in lacking
     )
     return (
-        f"lacks {count} of the profile: {listed}. Leave the key out, or name it under `without` where it only scales "
-        "others; a maker's own object goes under [objects]. Is this the right profile for the drive? `ebac drive "
-        "profile` lists those that come with ebac, and for another drive prints generic-cia402 to start from"
+        f"lacks {count} of the profile. Is this the right profile for the drive? `ebac drive profile` lists those that "
+        f"come with ebac, and for another drive prints generic-cia402 to start from. It lacks: {listed}. Leave the key "
+        "out, or name it under `without` where it only scales others; a maker's own object goes under [objects]"
     )
 
 

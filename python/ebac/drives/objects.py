@@ -100,6 +100,8 @@ class Object:
         """Return a value with its unit."""
         if isinstance(value, str):
             return value
+        if self.name == "heartbeat_consumer":  # node << 16 | ms
+            return f"node {value >> 16}, {value & 0xFFFF} ms" if value > 0 else "none"
         if self.hexadecimal:
             return f"0x{value:X}" if value >= 0 else str(value)
         return f"{value} {self.unit}".rstrip()

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 from ebac.drives import Backups, DriveBus, DriveError, Node, apply, verify
 from ebac.drives.state import State
+from ebac.drives.who_answers import naming_who_answers
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -39,7 +40,10 @@ def nodes_of(configuration: Configuration, *, simulate: bool) -> tuple[Node, ...
 @contextmanager
 def drives_at(backend: Backend, nodes: Sequence[Node]) -> Iterator[list[Drive]]:
     """Give the drives of a backend; the bus is closed after the block, so that Python receives no process data."""
-    with DriveBus.open(interface=backend.interface, channel=backend.channel) as bus:
+    with (
+        DriveBus.open(interface=backend.interface, channel=backend.channel) as bus,
+        naming_who_answers(bus),
+    ):
         yield [bus.drive(node.id, eds=node.sheet, timeout=backend.patience) for node in nodes]
 
 

@@ -182,6 +182,7 @@ def known_interface(name: str | None) -> None:
 def opened(where: BusOptions) -> Iterator[DriveBus]:
     """Give an open bus; what goes wrong on it ends the command."""
     from ebac.drives import DriveBus
+    from ebac.drives.who_answers import naming_who_answers
 
     with output.refusing():
         known_interface(where.interface)
@@ -193,7 +194,8 @@ def opened(where: BusOptions) -> Iterator[DriveBus]:
         ) as bus,
     ):
         _refuse_empty(bus)
-        yield bus
+        with naming_who_answers(bus):
+            yield bus
 
 
 def _refuse_empty(bus: DriveBus) -> None:

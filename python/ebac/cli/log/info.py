@@ -140,15 +140,32 @@ def _law(trace: Trace) -> list[tuple[str, str]]:
 
 
 def _extreme(name: str, value: float) -> str:
-    """Return the least or most of a column; a state and a fault with its name."""
+    """Return the least or most of a column; those with a meaning in words."""
     from ebac._core import LoopState
+    from ebac.drives.faults import emergency
     from ebac.logs.events import fault_name
 
     if name == "fault":
         return f"{value:.0f} ({fault_name(int(value))})"
     if name == "state" and value in list(LoopState):
         return f"{value:.0f} ({LoopState(int(value)).name.lower()})"
+    match re.sub(r"_\d$", "", name):
+        case "bus.statusword":
+            return f"0x{int(value):04X}{_drive_state(int(value))}"
+        case "bus.controlword":
+            return f"0x{int(value):04X}"
+        case "bus.emergency" if value:
+            return f"0x{int(value):04X} ({emergency(int(value))})"
     return f"{value:.4g}"
+
+
+def _drive_state(statusword: int) -> str:
+    from ebac.drives.state import State
+
+    try:
+        return f" ({State.of(statusword).value})"
+    except ValueError:
+        return ""
 
 
 def _columns(trace: Trace, *, meanings: bool) -> Any:
