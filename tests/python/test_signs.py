@@ -110,10 +110,18 @@ def test_a_run_that_is_stopped_ends_the_test(tmp_path: Path) -> None:
 
 def test_what_moves_by_itself_or_not_at_all_is_no_sign() -> None:
     ones = Signs().of_all(1)
-    still = judged(0, 1, ones, np.array([[1e-5, 1.0], [-1e-5, 1.0]]), 1.0, sensor=True)
+    still = judged(
+        0, 1, ones, np.array([[1e-5, 1.0], [-1e-5, 1.0]]), ebac.Device(), 0.1, sensor=True
+    )
     assert still.motor is None
-    assert "did not move" in still.remark
-    pushed = judged(0, 1, ones, np.array([[-4e-3, 1.0], [4e-3, 1.0]]), 1.0, sensor=True)
+    assert "give more: `--current 0.2` (at most 0.3 A" in still.remark
+    most = judged(
+        0, 1, ones, np.array([[1e-5, 1.0], [-1e-5, 1.0]]), ebac.Device(), 0.3, sensor=True
+    )
+    assert "0.3 A is the most of this test" in most.remark
+    pushed = judged(
+        0, 1, ones, np.array([[-4e-3, 1.0], [4e-3, 1.0]]), ebac.Device(), 0.1, sensor=True
+    )
     assert pushed.encoder is None
     assert "something else pushes" in pushed.remark
 
@@ -121,7 +129,7 @@ def test_what_moves_by_itself_or_not_at_all_is_no_sign() -> None:
 def test_the_table_names_the_node_of_each_axis(capsys: pytest.CaptureFixture[str]) -> None:
     pushes = np.array([[-4e-3, 1.0], [-4e-3, 1.0]])
     ones = Signs().of_all(2)
-    show([judged(axis, 5 - axis, ones, pushes, 1.0, sensor=True) for axis in (0, 1)])
+    show([judged(axis, 5 - axis, ones, pushes, ebac.Device(), 0.1, sensor=True) for axis in (0, 1)])
     heads, *rows = [line.split() for line in capsys.readouterr().out.splitlines() if line.strip()]
     assert heads[:2] == ["axis", "node"]
     assert [row[:2] for row in rows if row[0] in "01"] == [["0", "5"], ["1", "4"]]

@@ -352,7 +352,11 @@ def test_the_command_reads_and_writes_the_zero(tmp_path: Path) -> None:
     assert path.read_text(encoding="utf-8") == before
     done = command("drive", "zero", str(path), "--simulated", "--write")
     assert "zero.counts = [12345, -7]" in said(done)
-    assert "368.74 mm inside the wall" in said(done)
+    old, new = said(done).split("Written to")
+    assert "By the old zero:" in old
+    assert "368.74 mm inside the wall" in old
+    assert "By the new zero:" in new
+    assert "10.00 mm before the wall" in new
     assert set(before.splitlines()) <= set(path.read_text(encoding="utf-8").splitlines())
     done = command("drive", "zero", str(path), "--simulated")
     assert "10.00 mm before the wall" in said(done)

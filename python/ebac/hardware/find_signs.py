@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ebac._core import Elastic, Free, LoopState, Plane, Step, Wall
+from ebac._core import Device, Elastic, Free, LoopState, Plane, Step, Wall
 from ebac.hardware.configuration import Configuration
 from ebac.hardware.device import OpenDevice
 from ebac.hardware.run import Run
@@ -26,6 +26,8 @@ FAR, LEAST = 5e-3, 5e-4
 HELD = 0.3
 #: Where the wall stands that pushes with a force that hardly changes [m].
 _BEHIND = -1.0
+#: Current of a push [A].
+LEAST_CURRENT, MOST_CURRENT = 0.02, 0.3
 #: Current comes in with this slope [A/s].
 _SLEW = 1.0
 #: The force of the loop comes in within this at most [s]: short beside a push.
@@ -122,8 +124,10 @@ def find_signs(
     LoopFault, DriveError
         As for a run.
     """
-    if not 0.02 <= current <= 0.3:
-        raise ValueError(f"current = {current:g} A: must lie in [0.02, 0.3] A")
+    if not LEAST_CURRENT <= current <= MOST_CURRENT:
+        raise ValueError(
+            f"current = {current:g} A: must lie in [{LEAST_CURRENT}, {MOST_CURRENT}] A"
+        )
     axes = known.device.axes
     tested = gentle(known, current)
     signs = known.signs.of_all(axes)
@@ -141,7 +145,7 @@ def find_signs(
         run.finish()
     sensor = known.sensor is not None
     return [
-        judged(axis, node.id, signs, np.array(both), known.device.force(current), sensor=sensor)
+        judged(axis, node.id, signs, np.array(both), known.device, current, sensor=sensor)
         for axis, (node, both) in enumerate(zip(known.drives.nodes, pushes, strict=True))
     ]
 
@@ -194,9 +198,17 @@ def _mean(run: Run, axis: int, seconds: float) -> NDArray[np.float64]:
 
 
 def judged(
-    axis: int, node: int, signs: Signs, pushes: NDArray[np.float64], force: float, *, sensor: bool
+    axis: int,
+    node: int,
+    signs: Signs,
+    pushes: NDArray[np.float64],
+    device: Device,
+    current: float,
+    *,
+    sensor: bool,
 ) -> AxisSigns:
-    """Return the signs of an axis from way [m] and reaction force [N] of a push each way, shape (2, 2)."""
+    """Return the signs of an axis from way [m] and reaction force [N] of a push each way [A], shape (2, 2)."""
+    force = device.force(current)
     ways, reaction = pushes[:, 0], pushes[:, 1]
     motor, encoder = signs.motor[axis], signs.encoder[axis]
     held = (
@@ -211,7 +223,9 @@ def judged(
         "force_N": float(reaction.mean()) if held else None,
     }
     if not (np.abs(ways) > LEAST).all():
-        remark = "did not move: let go of the handle, look at friction, brake and drive, or give more current"
+        remark = (
+            f"did not move: let go of the handle, look at friction, brake and drive{_more(current)}"
+        )
         return AxisSigns(**shown, motor=None, encoder=None, remark=remark)
     if ways[0] * ways[1] < 0:
         remark = "moved the same way under both forces: something else pushes; let go of the handle"
@@ -231,3 +245,11 @@ def judged(
         encoder=encoder if encoder_right else -encoder,
         remark=remark,
     )
+
+
+def _more(current: float) -> str:
+    """Return the remedy of a larger current, where the test may use one."""
+    if current >= MOST_CURRENT:
+        return f"; {MOST_CURRENT} A is the most of this test"
+    better = min(2 * current, MOST_CURRENT)
+    return f", or give more: `--current {better:g}` (at most {MOST_CURRENT} A; in Python current={better:g})"

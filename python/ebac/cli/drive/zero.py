@@ -42,7 +42,7 @@ def zero(
     * `ebac drive zero my-joystick.toml --write`
     """
     from ebac.hardware import Configuration, Zero, axis_positions, distances
-    from ebac.hardware.axis_positions import axis_name
+    from ebac.hardware.axis_positions import axis_name, positions_at_zero
     from ebac.hardware.toml_table import rewrite
 
     with telling():
@@ -50,6 +50,8 @@ def zero(
         found = axis_positions(known, simulate=simulated)
     surfaces = distances(known, found)
     if not as_json:
+        if write:
+            output.say("By the old zero:", style="bold")
         positions.show(found, surfaces)
     if write:
         if not simulated:
@@ -67,10 +69,14 @@ def zero(
         found, right = now, Zero(counts=tuple(one.counts for one in now))
         with output.refusing():
             rewrite(configuration, right.written_into)
+        by_new_zero = known.replace(zero=right)
     if as_json:
         rows = [one.row() for one in found]
         typer.echo(output.document("drive zero", rows, written=write, surfaces_m=surfaces))
     elif write:
         output.say(f"Written to {configuration}: zero.counts = {[one.counts for one in found]}.")
+        output.say("By the new zero:", style="bold")
+        at_zero = positions_at_zero(by_new_zero)
+        positions.show(at_zero, distances(by_new_zero, at_zero))
     else:
         output.say("Nothing was written; --write writes these counts into the file as its zero.")
