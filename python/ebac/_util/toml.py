@@ -20,11 +20,23 @@ def parsed(text: str) -> dict[str, Any]:
     except RecursionError:
         raise ValueError("lists or tables within one another too deeply") from None
     except tomllib.TOMLDecodeError as error:
+        again = re.match(r"Cannot overwrite a value \(at line (\d+), column \d+\)", str(error))
+        if again is not None:
+            raise ValueError(_key_again(text, int(again[1]))) from None
         twice = re.match(r"Cannot declare \((.*)\) twice(.*)", str(error))
         if twice is None:
             raise ValueError(f"{error}{_comma(text, str(error))}") from None
         table = ".".join(re.findall("'([^']*)'", twice[1]))
         raise ValueError(f"the table [{table}] is there twice{twice[2]}; merge the two") from None
+
+
+def _key_again(text: str, line: int) -> str:
+    """Return what is wrong with a key that is on this line, from 1, and in the same table before."""
+    lines = text.split("\n")[:line]
+    key = lines[-1].partition("=")[0].strip()
+    headings = [found[1] for one in lines if (found := re.match(r"\s*\[+([^\]]+)\]", one))]
+    name = f"{headings[-1].strip()}.{key}" if headings else key
+    return f"{name} is given a second time on line {line}; keep one of the two"
 
 
 def _comma(text: str, message: str) -> str:

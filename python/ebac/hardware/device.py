@@ -103,7 +103,7 @@ class OpenDevice:
         load: _DrivenMachine | None = None,
     ) -> None:
         if not beyond_rating:
-            check_rating(configuration.limits, configuration.device)
+            check_rating(configuration)
         self.configuration = configuration
         self.simulated = simulate
         self._confirmed = False

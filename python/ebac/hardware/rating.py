@@ -2,45 +2,60 @@
 
 from __future__ import annotations
 
-from ebac._core import Device, Limits
+from typing import TYPE_CHECKING
+
+from ebac._core import Limits
+from ebac._util.toml_lines import line_of
 from ebac.hardware.tables import ConfigurationError
 
-#: Share by which a limit may exceed the data sheet: rounding in a file is no overload.
+if TYPE_CHECKING:
+    from ebac.hardware.configuration import Configuration
+
+#: Share by which a current may exceed the data sheet: rounding in a file is no overload.
 _ROUNDING = 1e-3
+#: The same for the time constant, of which only a number from memory is known.
+_FROM_MEMORY = 0.05
 
 
-def check_rating(limits: Limits, device: Device) -> None:
+def check_rating(known: Configuration) -> None:
     """Refuse limits that let through more current, or for longer, than motor and drive are made for.
 
     Parameters
     ----------
-    limits : Limits
-        Of the run.
-    device : Device
+    known : Configuration
         Its motor's rated torque and torque constant, and its drive's peak, give the largest currents [A]. The largest
-        time constant of the winding [s] is that of an RE 30 for every motor.
+        time constant of the winding [s] is that of an RE 30 for every motor, and 5 % more.
 
     Raises
     ------
     ConfigurationError
-        For the first limit beyond; the message has both numbers and the remedy.
+        For the first limit beyond; the message has file, line, both numbers and the remedy.
     """
-    rated = Limits.of(device)
-    for name, what in (
-        ("continuous_current", "current that the motor takes for ever (motor.rated_torque)"),
-        ("peak_current", "peak of its drive (drive.peak_ratio)"),
-        ("thermal_time", "time constant of an RE 30's winding, from memory of its data sheet"),
-    ):
-        asked, most = float(getattr(limits, name)), float(getattr(rated, name))
-        if asked > most * (1 + _ROUNDING):
-            of_winding = name == "thermal_time"
-            unit = "s" if of_winding else "A"
-            other = (
-                "look it up in your motor's data sheet"
-                if of_winding
-                else "correct the device's motor"
-            )
-            raise ConfigurationError(
-                f"limits.{name} = {asked:g} {unit}: is beyond the {what}, {most:.4g} {unit}: the motor may burn; lower "
-                f"it, {other}, or pass --beyond-rating (in Python beyond_rating=True)"
-            )
+    for name, wrong in beyond_rating(known):
+        other = (
+            "look it up in your motor's data sheet"
+            if name == "thermal_time"
+            else "correct the device's motor"
+        )
+        raise ConfigurationError(
+            f"{wrong}: the motor may burn; lower it, {other}, or pass --beyond-rating (in Python beyond_rating=True), "
+            "which allows every limit beyond and notes each"
+        )
+
+
+def beyond_rating(known: Configuration) -> list[tuple[str, str]]:
+    """Return each limit beyond the data sheet: its name, and file, line and both numbers in words."""
+    rated = Limits.of(known.device)
+    found = []
+    for name, unit, what, share in (
+        ("continuous_current", "A", "current that the motor takes for ever (motor.rated_torque)", _ROUNDING),
+        ("peak_current", "A", "peak of its drive (drive.peak_ratio)", _ROUNDING),
+        ("thermal_time", "s", "time constant of an RE 30's winding, from memory of its data sheet", _FROM_MEMORY),
+    ):  # fmt: skip
+        asked, most = float(getattr(known.limits, name)), float(getattr(rated, name))
+        if asked > most * (1 + share):
+            line = line_of(known.text, ("limits", name))
+            where = known.name if line is None else f"{known.name}, line {line}"
+            text = f"limits.{name} = {asked:g} {unit}: is beyond the {what}, {most:.4g} {unit}"
+            found.append((name, f"{where}: {text}"))
+    return found

@@ -116,4 +116,13 @@ def refusing(source: Source, path: Path, make: Any) -> Any:
                 raise source.refuse(cause, dotted(cause) + message.removeprefix(name)) from None
         names = _NAMED.findall(message)
         at = (*path, names[-1]) if names and names[-1] in table(source, path) else path
-        raise source.refuse(at, message) from None
+        if at != path:
+            message = re.sub(rf"^(?:[\w.\[\]]+: )?[A-Z]\w*\.{at[-1]}\b", dotted(at), message)
+        raise source.refuse(at, message + _remedy(at, message)) from None
+
+
+def _remedy(at: Path, message: str) -> str:
+    """Return where to look up a number of the device that is out of range."""
+    if at[0] != "device" or "must lie in" not in message or ";" in message:
+        return ""
+    return "; the page Describe your device says where it stands in a data sheet, and how to convert it"

@@ -147,7 +147,7 @@ def run(
       harder wall after 3 s; the hand goes back after 6 s. The log has the tick from which each acts.
 
     """
-    from ebac.hardware.rating import check_rating
+    from ebac.hardware import rating
     from ebac.hardware.schedule import Schedule
 
     if no_files and out is not None:
@@ -171,6 +171,9 @@ def run(
             schedule.check(known, simulated=simulated)
     if not (virtual or simulated):
         can_ask(known, yes)
+    if beyond_rating:
+        for _, text in rating.beyond_rating(known):
+            output.note(f"{text}; --beyond-rating allows it: the motor may burn")
     folder = None if no_files else out or (None if as_json else DEFAULT_OUT)
     stem = free_stem(folder)
     shown = output.console(stderr=True).is_terminal if live is None else live
@@ -178,7 +181,7 @@ def run(
         if virtual:
             if not beyond_rating:
                 with output.refusing():
-                    check_rating(known.limits, known.device)
+                    rating.check_rating(known)
             carry_out.run_virtual(known, stem, as_json, style, bus_time=bus_time)
         else:
             how = {"simulate": simulated, "detached": detached, "beyond_rating": beyond_rating}
