@@ -13,7 +13,7 @@ namespace ebac::python {
 void bind_limits(py::module_& m) {
   auto cls = bind_fields<Limits>(m, "Limits", "Safety limits of a loop on every axis.");
   cls.def_static("of", &Limits::of, py::arg("device"),
-                 "Return the limits of the motor, the drive and the lever of a device.");
+                 "Return the limits that follow from motor, drive and stops of a device.");
   m.def("_check_limits", &check_limits, py::arg("limits"));
   m.def(
       "_with_loop",

@@ -33,6 +33,13 @@ TEST(SafetyLimiter, LimitsOfADeviceAreItsMotors) {
   EXPECT_NEAR(kDevice.force(limits.peak_current), 42.4, 0.01);
 }
 
+TEST(SafetyLimiter, EdgeAndEndLieAroundTheStops) {
+  DeviceModel device = kDevice;
+  device.kinematics = Linear{.radius = 0.12, .limit = 0.2};
+  EXPECT_NEAR(Limits::of(device).edge, 0.019, 1e-12);  // m
+  EXPECT_NEAR(Limits::of(device).end, 0.029, 1e-12);
+}
+
 TEST(SafetyLimiter, LeavesAloneWhatIsAllowed) {
   Pushed p;
   EXPECT_EQ(p.pass(0.5), 0.5);

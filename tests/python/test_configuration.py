@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 
 import ebac
 from ebac.hardware import Configuration, ConfigurationError, designed
+from ebac.hardware.rating import check_rating
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "joystick.toml"
 
@@ -78,7 +79,7 @@ def test_an_empty_one_is_the_paper_s_joystick() -> None:
             "device.motor: rated_torque = 53 N m and",
         ),
         ("[timing]\ndelay = 1\ndt = 1\n", 3, "dt = 1 s: must lie in"),
-        ("[environment]\ntype = 'Wall'\nstiffness = -1.0\n", 3, "Wall.stiffness = -1 N/m"),
+        ("[environment]\ntype = 'Wall'\nstiffness = -1.0\n", 3, "environment.stiffness = -1 N/m"),
         (
             "[environment]\ntype = 'Wall'\nposition = 10.0\n",
             3,
@@ -113,14 +114,14 @@ def test_an_empty_one_is_the_paper_s_joystick() -> None:
             "a lower bound of the physical damping of the device",
         ),
         ("[law]\nname = 'ebac'\nkp = 7.0\n", 3, "kp = 7"),
-        ("[limits]\nspeed = 0.0\n", 2, "Limits.speed = 0 m/s: must lie in [0.001, 100] m/s"),
+        ("[limits]\nspeed = 0.0\n", 2, "limits.speed = 0 m/s: must lie in [0.001, 100] m/s"),
         ("[limits]\nedge = 0.06\nend = 0.05\n", None, "end"),
         ("[run]\nseconds = 'long'\n", 2, 'run.seconds = "long": must be a number in s'),
         ("[run]\nsoft_start = 61.0\n", 2, "must lie in [0, 60] s"),
         ("[realtime]\nmode = 'hard'\n", 2, "realtime.mode = 'hard'"),
-        ("[realtime]\npriority = 100\n", 2, "RealTime.priority = 100: must lie in [1, 99]"),
+        ("[realtime]\npriority = 100\n", 2, "realtime.priority = 100: must lie in [1, 99]"),
         ("[recording]\nmemory = 0.5\n", 2, "recording.memory = 0.5 s: must lie in [1, 3600] s"),
-        ("[simulated.hand]\nmass = -1.0\n", 2, "Hand.mass = -1 kg"),
+        ("[simulated.hand]\nmass = -1.0\n", 2, "simulated.hand.mass = -1 kg"),
         ("[simulated]\nhands = 2\n", 2, "did you mean 'hand'"),
         ("speed = 1\n", 1, "speed: no such name"),
         ("bus = 3\n", 1, "bus = 3: must be a table"),
@@ -187,6 +188,31 @@ def test_what_cannot_be_is_refused_with_its_line(text: str, line: int | None, wo
 )
 def test_a_world_within_reach_is_taken(world: str) -> None:
     assert Configuration.from_toml(f"{FLAT}[environment]\n{world}")
+
+
+def test_a_wall_behind_the_stops_is_refused() -> None:
+    table = f"{FLAT}radius = 0.12\nlimit = 0.2\n[environment]\ntype = 'Wall'\nposition = "
+    with pytest.raises(ConfigurationError, match=r"position = 0\.04 m: must be less than 0\.029 m"):
+        Configuration.from_toml(table + "0.04\n")
+    limits = Configuration.from_toml(table + "0.01\n").limits
+    assert (limits.edge, limits.end) == pytest.approx((0.019, 0.029))
+
+
+def test_a_number_out_of_range_is_named_by_its_key_and_a_second_one_too() -> None:
+    motor = "[device.motor]\nrotor_inertia = -3.45e-06\n"
+    with pytest.raises(ConfigurationError) as refused:
+        Configuration.from_toml(motor, name="mine.toml")
+    said = str(refused.value)
+    assert said.startswith("mine.toml, line 2: device.motor.rotor_inertia = -3.45e-06 kg m^2: must")
+    assert "Describe your device" in said
+    with pytest.raises(ConfigurationError, match=r"device\.motor\.rotor_inertia is given a second"):
+        Configuration.from_toml(motor + "rotor_inertia = 1e-6\n")
+
+
+def test_a_limit_beyond_the_motor_names_file_and_line() -> None:
+    text = f"{FLAT}[limits]\npeak_current = 40.0 # A\n"
+    with pytest.raises(ConfigurationError, match=r"^mine\.toml, line 5: limits\.peak_current = 40"):
+        check_rating(Configuration.from_toml(text, name="mine.toml"))
 
 
 def test_signs_are_those_of_the_axes() -> None:

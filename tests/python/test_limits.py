@@ -93,6 +93,19 @@ def test_soft_start_brings_the_force_in() -> None:
     assert share[later] == pytest.approx(1)
 
 
+@pytest.mark.parametrize("lever", [ebac.Linear, ebac.Gimbal])
+@pytest.mark.parametrize("limit", [0.2, 0.5, 1.2])
+def test_edge_and_end_lie_5_mm_before_and_behind_the_stops(lever: type, limit: float) -> None:
+    limits = Limits.of(ebac.Device(kinematics=lever(radius=0.12, limit=limit)))
+    assert limits.edge == pytest.approx(0.12 * limit - 5e-3)
+    assert limits.end == pytest.approx(0.12 * limit + 5e-3)
+
+
+def test_edge_lies_halfway_to_stops_closer_than_10_mm() -> None:
+    limits = Limits.of(ebac.Device(kinematics=ebac.Linear(radius=0.02, limit=0.3)))
+    assert (limits.edge, limits.end) == pytest.approx((3e-3, 9e-3))
+
+
 def test_leaving_the_workspace_is_a_fault_with_zero_force() -> None:
     hand = ebac.Hand(path=ebac.Step(target=0.2))
     with pytest.raises(ebac.LoopFault) as stopped:

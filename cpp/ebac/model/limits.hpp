@@ -27,17 +27,20 @@ struct Limits {
   double pause = 0.05;     // s
   double starved = 2;      // s
 
-  /// The edge lies 5 mm before 30 degrees of the lever, the end as far behind it.
+  /// The edge lies 5 mm before the stops of the first axis, or halfway to them where they are closer than
+  /// 10 mm; the end lies as far behind them.
   static Limits of(const DeviceModel& device) EBAC_RT {
-    constexpr double kSwing = 0.5235987755982988;  // rad, 30 degrees (facts of the joystick)
-    constexpr double kZone = 5e-3;                 // m
-    constexpr double kPeakTick = 1e-3;             // s, from one peak to none
+    constexpr double kZone = 5e-3;      // m
+    constexpr double kLeast = 1e-3;     // m
+    constexpr double kPeakTick = 1e-3;  // s, from one peak to none
+    const double way = stops(device.kinematics)[0] * device.travel();
+    const double zone = std::min(kZone, way / 2);
     Limits limits;
     limits.continuous_current = device.motor.current(device.motor.rated_torque);
     limits.peak_current = device.drive.peak_current(device.motor);
     limits.slew = 2 * limits.peak_current / kPeakTick;
-    limits.edge = std::max(device.radius() * kSwing - kZone, kZone);
-    limits.end = limits.edge + 2 * kZone;
+    limits.edge = std::max(way - zone, kLeast);
+    limits.end = limits.edge + 2 * zone;
     return limits;
   }
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from math import radians
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -16,6 +17,8 @@ FACTOR = 2.0
 CURRENT, FORCE, MASS = (0.05, 50.0), (0.1, 1e3), (1e-3, 20.0)
 #: Coarsest count of an encoder at the handle [m] that is usual.
 COUNT = 2e-4
+#: No lever turns farther from its middle [rad], nor moves a cable at its drum farther [m].
+TURN, WAY = 1.6, 1.0
 
 
 def tell(file: Path | str, device: Device) -> None:
@@ -50,6 +53,7 @@ def doubts(device: Device) -> list[str]:
             f"{1e3 * COUNT:g} mm; device.encoder: counts_per_turn is that of the motor after quadrature, 4 x lines, "
             "and the radii are in m (mm x 1e-3)"
         )
+    found += _far_stops(device)
     drum, sector = device.capstan.drum_radius, device.capstan.sector_radius
     if drum > sector:
         found.append(
@@ -62,6 +66,19 @@ def doubts(device: Device) -> list[str]:
             "(g x 1e-3), rotor_inertia in kg m^2 (g cm^2 x 1e-7)"
         )
     return found
+
+
+def _far_stops(device: Device) -> list[str]:
+    limit, radius = device.kinematics.limit, device.radius
+    # Where sector and lever are as large, the joint may be a drum that turns more than once.
+    slide = device.capstan.sector_radius == radius and limit * radius <= WAY
+    if limit <= TURN or slide:
+        return []
+    return [
+        f"device.kinematics.limit = {limit:g} rad: the stops lie {limit * radius:.4g} m from the middle, and edge and "
+        f"end of the workspace follow from them; limit is in rad, from the middle to the stop: {limit:g} degrees are "
+        f"{radians(limit):.4g} rad"
+    ]
 
 
 def _usual(span: tuple[float, float], unit: str) -> str:
