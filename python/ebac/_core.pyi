@@ -7025,6 +7025,8 @@ class TimedBus:
         time without the loop's heartbeat that is a fault of a drive; 0 watches none [s], 0 to 60.
     torque_silence : float
         time without a torque that is a fault of a drive; 0 watches none [s], 0 to 60.
+    peak_ratio : float
+        largest torque that the drives let through over the rated one (0x6072, 0x6073); that of the device limits it, too, 0.001 to 65.
     seed : int
         seed of what is destroyed, 0 to 9e+15.
     """
@@ -7048,6 +7050,7 @@ class TimedBus:
         drive_heartbeat: float = 0.1,
         loop_silence: float = 0.3,
         torque_silence: float = 0.005,
+        peak_ratio: float = 10.0,
         seed: int = 0,
     ) -> None: ...
     def __reduce__(self) -> tuple[typing.Any, ...]: ...
@@ -7094,6 +7097,11 @@ class TimedBus:
     def loop_silence(self) -> float:
         """
         time without the loop's heartbeat that is a fault of a drive; 0 watches none [s], 0 to 60
+        """
+    @property
+    def peak_ratio(self) -> float:
+        """
+        largest torque that the drives let through over the rated one (0x6072, 0x6073); that of the device limits it, too, 0.001 to 65
         """
     @property
     def response(self) -> float:
@@ -7610,7 +7618,7 @@ class Limits:
     @staticmethod
     def of(device: Device) -> Limits:
         """
-        Return the limits of the motor, the drive and the lever of a device.
+        Return the limits that follow from motor, drive and stops of a device.
         """
     def __eq__(self, other: typing.Any) -> bool: ...
     def __hash__(self) -> int: ...

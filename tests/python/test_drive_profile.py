@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from ebac import drives
 from ebac.drives.load import BITRATES
-from ebac.drives.objects import ENTRIES, known, mapped
+from ebac.drives.objects import ENTRIES, find, known, mapped
 from ebac.drives.pdo import read_pdo
 from ebac.drives.profile import read_profile, read_source
 from ebac.drives.profile_fields import KEYS
@@ -284,12 +284,18 @@ def test_the_paper_s_motor_in_raw_numbers() -> None:
     assert (numbers["max_torque"], numbers["max_current"]) == (4000, 4000)
     assert (numbers["mode"], numbers["desired_state"]) == (10, 30)
     assert numbers["sync_period"] == 1000
-    assert numbers["heartbeat_consumer"] == 127 << 16 | 300
+    assert numbers["heartbeat_consumer"] == 127 << 16 | 100
     assert numbers["emcy_cob_id"] == 0x83
     assert (numbers["rpdo1_cob_id"], numbers["tpdo1_cob_id"]) == (0x203, 0x183)
     assert (numbers["rpdo1_entry1"], numbers["rpdo1_entry2"]) == (0x60400010, 0x60710010)
     assert [numbers[f"tpdo1_entry{i}"] for i in (1, 2, 3)] == [0x60410010, 0x60640020, 0x60770010]
     assert numbers["tpdo4_cob_id"] == 1 << 31
+
+
+def test_whose_heartbeat_a_drive_watches_is_shown_in_words() -> None:
+    consumer = find("heartbeat_consumer")
+    assert consumer.show(127 << 16 | 300) == "node 127, 300 ms"
+    assert consumer.show(0) == "none"
 
 
 def test_older_firmware_has_its_motor_data_elsewhere_and_ramps() -> None:

@@ -2,6 +2,7 @@
 
 import dataclasses
 import json
+import re
 import threading
 import time
 from collections.abc import Callable, Iterator
@@ -19,6 +20,7 @@ from ebac import drives
 from ebac._core import SimulatedDrive
 from ebac.cli import app
 from ebac.drives.bus_monitor import BusMonitor
+from ebac.drives.profile import read_source
 from ebac.hardware import Configuration
 
 Open = Callable[[], can.BusABC]
@@ -266,19 +268,33 @@ def test_doctor_prints_how_long_each_drive_would_hold_its_torque(tmp_path: Path)
     for bare, found, verdict in (
         (
             False,
-            "fault, power off after 5 ms at worst (pdo.rpdo1.event 5 ms, heartbeat.consumer 300 ms)",
+            "fault, power off after 5 ms at worst (pdo.rpdo1.event 5 ms, heartbeat.consumer 100 ms); by then 42.4 N "
+            "move a free handle of 0.25 kg by 2.1 mm",
             "good",
+        ),
+        (
+            "heartbeat alone",
+            "fault, power off after 100 ms at worst (heartbeat.consumer 100 ms); by then 42.4 N have moved a free "
+            "handle of 0.25 kg to the end of the workspace, after 26 ms",
+            "fair",
         ),
         (True, "holds its torque for ever", "bad"),
     ):
-        if bare:
+        if bare == "heartbeat alone":
+            profile = tmp_path / "heartbeat.toml"
+            shipped = read_source("copley-accelnet").text
+            profile.write_text(re.sub("(?m)^event = .*$", "", shipped), encoding="utf-8")
+            nodes = "".join(f'[[node]]\nid = {n}\nprofile = "heartbeat.toml"\n' for n in (1, 2))
+            (tmp_path / "heartbeats.toml").write_text(nodes, encoding="utf-8")
+            text = text.replace('drives = "joystick" ', 'drives = "heartbeats.toml" ')
+        elif bare:
             profile = tmp_path / "bare.toml"
             profile.write_text(
                 "[limits]\nrated_torque = 0.053\nmax_torque = 0.1\n", encoding="utf-8"
             )
             nodes = "".join(f'[[node]]\nid = {n}\nprofile = "bare.toml"\n' for n in (1, 2))
             (tmp_path / "net.toml").write_text(nodes, encoding="utf-8")
-            text = text.replace('drives = "joystick" ', 'drives = "net.toml" ')
+            text = text.replace('drives = "heartbeats.toml" ', 'drives = "net.toml" ')
         mine.write_text(text, encoding="utf-8")
         ran = CliRunner().invoke(app, ["doctor", str(mine), "--json"])
         rows = {row["what"]: row for row in json.loads(ran.stdout)["rows"]}
@@ -286,6 +302,7 @@ def test_doctor_prints_how_long_each_drive_would_hold_its_torque(tmp_path: Path)
             row = rows[f"node {node}, a loop that stalls"]
             assert (row["found"], row["verdict"]) == (found, verdict)
         assert ran.exit_code == (1 if verdict == "bad" else ran.exit_code)
+        assert (row["remedy"] is None) == (verdict == "good")
 
 
 @pytest.mark.parametrize("name", ["copley-accelnet", "generic-cia402"])

@@ -13,7 +13,7 @@ import typer
 from typer.testing import CliRunner
 
 import ebac
-from ebac.cli import app
+from ebac.cli import app, doubtful_run
 from ebac.cli.files import FigureOptions
 from ebac.cli.run import names
 from ebac.cli.run.live import lines
@@ -153,7 +153,11 @@ def test_a_fault_by_time_names_the_lateness_and_the_doctor(fault: ebac.Fault) ->
         assert notes == []
     else:
         assert "woke up to 12.3 ms late and skipped 12 ticks; `ebac doctor`" in notes[0]
-        assert "bus.silent = 50 or more; only then look at cables" in notes[0]
+        assert (
+            "without hardware, or with nobody at the handle, patience helps: bus.silent = 50"
+            in notes[0]
+        )
+        assert "or more; only then look at cables" in notes[0]
 
 
 def test_a_simulation_is_never_late() -> None:
@@ -195,10 +199,41 @@ def test_the_data_sheet_counts_on_a_virtual_clock_too(tmp_path: Path) -> None:
     assert "limits.thermal_time" in done.stderr
     assert "the motor may burn" in " ".join(done.stderr.split())
     assert "of an RE 30's winding, from memory" in " ".join(done.stderr.split())
-    assert CliRunner().invoke(app, [*words, "--beyond-rating"]).exit_code == 0
+    line = next(
+        n for n, one in enumerate(Path(file).read_text().split("\n"), 1) if "thermal_time =" in one
+    )
+    assert f"joystick.toml, line {line}: limits.thermal_time" in "".join(done.stderr.split("\n"))
+    allowed = CliRunner().invoke(app, [*words, "--beyond-rating"])
+    assert allowed.exit_code == 0
+    assert "limits.thermal_time = 24 s" in " ".join(allowed.stderr.split())
+    little = known.replace(limits=known.limits.replace(thermal_time=1.04 * most))
+    VirtualDevice(little, delay=1)  # 16 s are from memory
     beyond = known.replace(limits=known.limits.replace(thermal_time=1.5 * most))
     with pytest.raises(ebac.hardware.ConfigurationError, match="thermal_time"):
         VirtualDevice(beyond, delay=1)
+
+
+@pytest.mark.parametrize("limit", [{"limits__max_current": 0.1}, {"limits__max_torque": 0.0054}])
+@pytest.mark.parametrize("bus_time", [True, False])
+def test_the_limits_of_the_drives_count_on_a_virtual_clock_too(
+    limit: dict[str, float], bus_time: bool
+) -> None:
+    known = Configuration.load(EXAMPLE)
+    nodes = [replace(one, profile=one.profile.replace(**limit)) for one in known.drives.nodes]
+    weak = known.replace(drives=replace(known.drives, nodes=tuple(nodes)))
+    trace = weak.simulate(seconds=1, bus_time=bus_time)
+    assert np.abs(trace["bus.actual_permille"]).max() == 102
+    assert np.abs(known.simulate(seconds=1)["bus.actual_permille"]).max() > 102
+    (said,) = doubtful_run.doubts(weak)
+    assert "node 1: limits.max_" in said
+    assert "lets through 0.1005 A, 1.08 N at the handle, less than limits.peak_current" in said
+    assert doubtful_run.doubts(known) == []
+
+
+def test_a_soft_wall_behind_the_stops_is_noted() -> None:
+    known = Configuration.load(EXAMPLE)
+    (said,) = doubtful_run.doubts(known.replace(limits=known.limits.replace(edge=0.06, end=0.07)))
+    assert "limits.edge = 0.06 m: the stops lie before it, 0.05236 m from the middle" in said
 
 
 def test_range_and_counts_of_the_sensor_count_on_a_virtual_clock_too() -> None:

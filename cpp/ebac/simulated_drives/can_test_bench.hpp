@@ -29,7 +29,8 @@ class CanTestBench {
         other_(std::move(plant), device, bus_,
                {.dt = dt, .answer = timed_.answer_share * dt, .response = timed_.response}),
         can_(bus_, OnOtherSide(other_), can_setup(device, timed)) {
-    const auto most = static_cast<int>(TorqueScale::of(device.motor, device.drive).most);
+    const auto most = static_cast<int>(
+        std::min(TorqueScale::of(device.motor, device.drive).most, timed_.peak_ratio * 1000 + 0.5));
     const Watches watches = timed ? watches_of(*timed) : Watches{};
     for (std::size_t i = 0; i < joystick().axes(); ++i) set_up(joystick().drive(i), most, watches);
     bus_.send(frame(kNmt, {kStartNode, kAllNodes}));

@@ -20,6 +20,7 @@ struct TimedBus {
   double drive_heartbeat = 0.1;   // s
   double loop_silence = 0.3;      // s
   double torque_silence = 0.005;  // s
+  double peak_ratio = 10;         // peak torque of the drives over rated torque
   std::int64_t seed = 0;
 
   static constexpr auto fields() {
@@ -42,6 +43,10 @@ struct TimedBus {
           "time without the loop's heartbeat that is a fault of a drive; 0 watches none", 0, 60},
         F{"torque_silence", &TimedBus::torque_silence, "s",
           "time without a torque that is a fault of a drive; 0 watches none", 0, 60},
+        F{"peak_ratio", &TimedBus::peak_ratio, "1",
+          "largest torque that the drives let through over the rated one (0x6072, 0x6073); that of "
+          "the device limits it, too",
+          1e-3, 65},
         F{"seed", &TimedBus::seed, "1", "seed of what is destroyed", 0, 9e15},
     };
   }

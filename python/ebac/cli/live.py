@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from ebac.cli import by_name, doubtful_device, options, output
+from ebac.cli import by_name, doubtful_run, options, output
 from ebac.cli.drive.options import Yes, telling
 from ebac.cli.files import new_file
 
@@ -165,7 +165,7 @@ def _serve(
     with output.refusing():
         known = None if file is None else Configuration.load(file)
         if known is not None:
-            doubtful_device.tell(str(file), known.device)
+            doubtful_run.tell(str(file), known)
         name = None if law is None else by_name.one_law(law)
     with ExitStack() as stack:
         interrupts = stack.enter_context(Interrupts())

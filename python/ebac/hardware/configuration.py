@@ -256,12 +256,16 @@ class Configuration:
             When the loop does not wait long enough for the answers; the message contains both times.
         """
         from ebac.hardware.axis_positions import check_outside, positions_at_zero
+        from ebac.hardware.drive_limits import held_back
         from ebac.simulation import simulate
 
         self._refuse_wrong_wiring()
         check_outside(self, positions_at_zero(self), self.environment)
+        scenario = self._on_virtual_clock(seconds)
+        if not bus_time:  # a bus that takes time has the limits of its drives
+            scenario = scenario.replace(device=held_back(scenario.device, self.drives))
         return simulate(
-            self._on_virtual_clock(seconds),
+            scenario,
             self.design(),
             through="can",
             bus=self.timed_bus() if bus_time else None,

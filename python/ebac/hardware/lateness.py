@@ -57,6 +57,10 @@ def remedy(fault: Fault) -> str:
     """Return what to do first about a fault of a loop that was late."""
     first = "`ebac doctor` says what this machine lacks for real time"
     patient = PATIENT.get(fault)
-    more = f"; a machine without it needs patience, such as {patient}" if patient else ""
+    more = (
+        f"; without hardware, or with nobody at the handle, patience helps: {patient}"
+        if patient
+        else ""
+    )
     last = "; only then look at cables and termination" if fault is Fault.DRIVE_SILENT else ""
     return f"{first}{more}{last}"

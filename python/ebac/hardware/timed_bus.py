@@ -9,6 +9,7 @@ from ebac._core import TimedBus
 from ebac.drives.frame_length import frame_bits, least_bits
 from ebac.drives.network import Network
 from ebac.drives.stall import watches
+from ebac.hardware.drive_limits import allowed_ratio
 
 if TYPE_CHECKING:
     from ebac.hardware.configuration import Configuration
@@ -17,12 +18,12 @@ if TYPE_CHECKING:
 def timed_bus(
     network: Network, *, silent: int, answer_share: float, changes: Mapping[str, Any]
 ) -> TimedBus:
-    """Return the bus of a network for a simulated run: bit rate, waiting time and watches as configured.
+    """Return the bus of a network for a simulated run: bit rate, waiting time, watches, limits of torque.
 
     Parameters
     ----------
     network : Network
-        The drives. The shortest watch of any is that of all.
+        The drives. The shortest watch and the least torque that any allows are those of all.
     silent : int
         Ticks in a row without process data that are a fault [samples].
     answer_share : float
@@ -39,6 +40,9 @@ def timed_bus(
     acting = [watches(profile) for profile in profiles]
     torque = [after for one in acting for key, after in one.items() if key.startswith("pdo.")]
     loop = [one["heartbeat.consumer"] for one in acting if "heartbeat.consumer" in one]
+    lowest, highest = next(
+        (one.low, one.high) for one in TimedBus.fields() if one.name == "peak_ratio"
+    )
     known = {
         "bit_rate": float(network.bitrate),
         "silent_ticks": silent,
@@ -46,6 +50,7 @@ def timed_bus(
         "drive_heartbeat": max(float(one.values["heartbeat.producer"]) for one in profiles),
         "loop_silence": min(loop, default=0.0),
         "torque_silence": min(torque, default=0.0),
+        "peak_ratio": min(max(allowed_ratio(network)[0], lowest), highest),
     }
     return TimedBus(**{**known, **changes})
 

@@ -52,7 +52,7 @@ class VirtualDevice:
 
     def __init__(self, configuration: Configuration, *, delay: int) -> None:
         configuration._refuse_wrong_wiring()
-        check_rating(configuration.limits, configuration.device)
+        check_rating(configuration)
         self.configuration = configuration
         self._delay = delay
         self._run: VirtualRun | None = None

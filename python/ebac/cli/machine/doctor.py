@@ -34,7 +34,8 @@ def doctor(
     """Check this machine for real-time problems.
 
     Prints how to fix each one. Kernel, clock, limits and CAN interfaces are checked; nothing is changed. "fair" means
-    that some ticks will be late, "bad" that a control loop cannot run as requested, with exit code 1.
+    that some ticks will be late, or that a drive whose loop stalls can throw the handle to the end of the workspace,
+    "bad" that a control loop cannot run as requested, with exit code 1.
 
     **Examples**
 
@@ -96,26 +97,44 @@ def _stalls(path: Path) -> list[Finding]:
     """Return what each drive of a configuration does when its loop stalls."""
     from ebac.drives.stall import LONGEST, REACTION, watches
     from ebac.hardware.configuration import Configuration
+    from ebac.hardware.drive_limits import thrown
     from ebac.hardware.drive_setup import nodes_of
     from ebac.realtime import Finding
 
     found = []
-    for node in nodes_of(Configuration.load(path), simulate=False):
+    known = Configuration.load(path)
+    for axis, node in enumerate(nodes_of(known, simulate=False)):
         acting = watches(node.profile)
         worst = min(acting.values(), default=float("inf"))
         text = ", ".join(f"{key} {1e3 * after:g} ms" for key, after in acting.items())
         then = REACTION[int(node.profile.values["drive.connection_lost"])]
-        good = worst <= LONGEST
+        force, way, to_the_end = thrown(known, axis, worst)
+        verdict: Verdict = "bad" if worst > LONGEST else "fair" if worst >= to_the_end else "good"
+        mass = f"a free handle of {known.device.mass:.3g} kg"
+        moved = (
+            f"{force:.1f} N move {mass} by {1e3 * way:.2g} mm"
+            if verdict == "good"
+            else f"{force:.1f} N have moved {mass} to the end of the workspace, after {1e3 * to_the_end:.2g} ms"
+        )
         found.append(
             Finding(
                 what=f"node {node.id}, a loop that stalls",
-                found=f"{then} after {1e3 * worst:g} ms at worst ({text})"
+                found=f"{then} after {1e3 * worst:g} ms at worst ({text}); by then {moved}"
                 if acting
                 else "holds its torque for ever",
-                verdict="good" if good else "bad",
-                remedy=""
-                if good
-                else "give pdo.rpdo1.event = 0.005 or heartbeat.consumer = 0.3, best both",
+                verdict=verdict,
+                remedy=_stall_remedy(verdict, to_the_end),
             )
         )
     return found
+
+
+def _stall_remedy(verdict: Verdict, to_the_end: float) -> str:
+    if verdict == "bad":
+        return "give pdo.rpdo1.event = 0.005 or heartbeat.consumer = 0.1, best both"
+    if verdict == "fair":
+        return (
+            "give pdo.rpdo1.event = 0.005 where the drive has 0x1400:5, or a heartbeat.consumer of less than "
+            f"{to_the_end:.2g} s; a lower limits.max_torque of the profile and limits.peak_current leave more time"
+        )
+    return ""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ebac.cli import by_name, doubtful_device, options, setting
+from ebac.cli import by_name, doubtful_run, options, setting
 
 if TYPE_CHECKING:
     from ebac.hardware import Configuration
@@ -25,7 +25,7 @@ def chosen(
     from ebac.hardware.world_place import check_reached
 
     known = Configuration.load(file)
-    doubtful_device.tell(file, known.device)
+    doubtful_run.tell(file, known)
     changes: dict[str, Any] = {
         "environment": options.wall_of(known.environment, wall),
         "hand": options.hand_of(known.hand, person),

@@ -1,0 +1,65 @@
+"""Numbers of a configuration of `ebac run` that are possible, but more likely not meant."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from ebac.cli import doubtful_device, output
+
+if TYPE_CHECKING:
+    from ebac.hardware import Configuration
+
+
+def tell(file: Path | str, known: Configuration) -> None:
+    """Say on stderr what of a configuration is likely not meant."""
+    doubtful_device.tell(file, known.device)
+    for text in doubts(known):
+        output.note(f"{file}: {text}")
+
+
+def doubts(known: Configuration) -> list[str]:
+    """Return a sentence for each number that is likely not meant, with the remedy."""
+    return [*_weight_of_the_joystick(known), *_edge_behind_the_stops(known), *_weak_drives(known)]
+
+
+def _weight_of_the_joystick(known: Configuration) -> list[str]:
+    from ebac._util.toml import parsed
+
+    table = parsed(known.text).get("device", {})
+    gravity = known.device.mechanics.gravity
+    if not table or "preset" in table or "gravity" in table.get("mechanics", {}) or not gravity:
+        return []
+    weight = known.device.mechanics.handle_mass * gravity
+    return [
+        f"device.mechanics.gravity = {gravity:g} m/s^2 is that of the joystick, from which [device] starts without a "
+        f"preset: the handle has a weight of {weight:.3g} N; write gravity = 0.0 where a spring or counterweight "
+        f"carries it, else gravity = {gravity:g}"
+    ]
+
+
+def _edge_behind_the_stops(known: Configuration) -> list[str]:
+    kinematics = known.device.kinematics
+    way = float((kinematics.travel * kinematics.stops)[0])
+    if known.limits.edge <= way:
+        return []
+    return [
+        f"limits.edge = {known.limits.edge:g} m: the stops lie before it, {way:.4g} m from the middle "
+        f"(device.kinematics.limit = {kinematics.limit:g} rad), so that the soft wall there never acts; lower edge and "
+        "end, or leave them out: then they follow from the stops"
+    ]
+
+
+def _weak_drives(known: Configuration) -> list[str]:
+    from ebac.hardware.drive_limits import ROUNDING, allowed_ratio
+
+    motor = known.device.motor
+    ratio, key = allowed_ratio(known.drives)
+    allowed = ratio * motor.current(motor.rated_torque)
+    if allowed >= known.limits.peak_current * (1 - ROUNDING):
+        return []
+    return [
+        f"{key} in {known.drives.name}: the drive lets through {allowed:.4g} A, {known.device.force(allowed):.3g} N at "
+        f"the handle, less than limits.peak_current = {known.limits.peak_current:.4g} A, and the law does not know it; "
+        f"lower limits.peak_current (and continuous_current) to {allowed:.4g}, or raise the limit of the profile"
+    ]

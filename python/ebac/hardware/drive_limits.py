@@ -1,0 +1,90 @@
+"""The largest torque and current that the profiles of the drives allow: a run may want more."""
+
+from __future__ import annotations
+
+from math import inf, sqrt
+from typing import TYPE_CHECKING
+
+from ebac.drives.profile_fields import BY_NAME
+from ebac.hardware.world_place import ends_of
+
+if TYPE_CHECKING:
+    from ebac._core import Device
+    from ebac.drives.network import Network
+    from ebac.drives.profile import Profile
+    from ebac.hardware.configuration import Configuration
+
+#: Share by which a drive may allow less than the device: both are rounded.
+ROUNDING = 2e-3
+
+_LIMITS = ("limits.max_torque", "limits.max_current")
+
+
+def allowed_ratio(network: Network) -> tuple[float, str]:
+    """Return the largest torque that every drive lets through, over its rated one, and what limits it.
+
+    Parameters
+    ----------
+    network : Network
+        The drives. A limit is a whole number of thousandths of the rated value (0x6072, 0x6073).
+
+    Returns
+    -------
+    ratio : float
+        inf where no profile has a limit.
+    key : str
+        Such as "node 1: limits.max_current = 0.1 A"; empty for inf.
+    """
+    least, key = inf, ""
+    for node in network.nodes:
+        for name in _LIMITS:
+            ratio = _ratio(node.profile, name)
+            if ratio < least:
+                given = BY_NAME[name].show(node.profile.values[name])
+                least, key = ratio, f"node {node.id}: {name} = {given}"
+    return least, key
+
+
+def held_back(device: Device, network: Network) -> Device:
+    """Return the device with a peak that every drive lets through; the same one where they let through its own."""
+    ratio, _ = allowed_ratio(network)
+    if ratio >= device.drive.peak_ratio * (1 - ROUNDING):
+        return device
+    return device.replace(drive=device.drive.replace(peak_ratio=max(ratio, 0.01)))
+
+
+def thrown(known: Configuration, axis: int, seconds: float) -> tuple[float, float, float]:
+    """Return what a drive that holds its largest torque does to a free handle at its zero.
+
+    Parameters
+    ----------
+    known : Configuration
+        Device, drives and limits.
+    axis : int
+        Which axis, from 0.
+    seconds : float
+        For how long the torque is held [s]; inf for ever.
+
+    Returns
+    -------
+    force : float
+        That of the least of the peak of the device, `limits.peak_current` and the drive's own limit [N].
+    way : float
+        How far it moves the handle in that time, without friction [m].
+    to_the_end : float
+        After what time the handle is at the end of the workspace [s].
+    """
+    device = held_back(known.device, known.drives)
+    current = min(device.drive.peak_current(device.motor), known.limits.peak_current)
+    gear = float(device.kinematics.travel[0] / device.kinematics.travel[axis])
+    force = device.force(current) * gear
+    acceleration = force / (device.mechanics.handle_mass + device.reflected_mass * gear**2)
+    end = float(ends_of(device, known.limits)[axis])
+    return force, 0.5 * acceleration * seconds**2, sqrt(2 * end / acceleration)
+
+
+def _ratio(profile: Profile, name: str) -> float:
+    value, rated = profile.values.get(name), profile.values.get(BY_NAME[name].per)
+    if value is None or rated is None:
+        return inf
+    return round(1000 * float(value) / float(rated)) / 1000
