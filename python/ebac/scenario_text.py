@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 from ebac._util import serialisation
 from ebac._util.foreign_worlds import foreign
 from ebac._util.mesh_paths import seen_from, seen_from_here
+from ebac._util.text_file import read_text
 from ebac._util.toml import parsed
 from ebac.hands import is_own
 
@@ -60,6 +61,11 @@ def _why_not(scenario: Scenario) -> str:
             "scenario with a World, a wall, or a Bridge to a World"
         )
     return ""
+
+
+def is_configuration(file: Path) -> bool:
+    """Return whether a file that can be read has a table of a configuration of `ebac run`."""
+    return not _OF_A_RUN.isdisjoint(parsed(read_text(file)))
 
 
 def parts_of(text: str, kind: type[Scenario], folder: Path | None) -> dict[str, Any]:

@@ -53,7 +53,7 @@ def spec_sheet(device: Device) -> list[Spec]:
     """
     require(device, Device, "ebac.spec_sheet", "a Device")
     radius, limit = device.radius, device.kinematics.limit
-    motor, drive = device.motor, device.drive
+    motor, drive, gravity = device.motor, device.drive, device.mechanics.gravity
     return [
         Spec(name="resolution", value=device.count, unit="m", paper=0.03e-3,
              how="2 pi / counts per turn, through capstan and lever"),
@@ -80,6 +80,8 @@ def spec_sheet(device: Device) -> list[Spec]:
         Spec(name="of which rotor", value=device.reflected_mass, unit="kg", paper=None,
              how="rotor inertia over squared drum radius, through the lever",
              remark="rotor inertia is indicative"),
+        Spec(name="weight", value=device.mechanics.handle_mass * gravity, unit="N", paper=None,
+             how=f"handle_mass times gravity of {gravity:g} m/s^2" if gravity else "gravity = 0 m/s^2: carried"),
         Spec(name="viscous damping", value=device.mechanics.damping, unit="N s/m", paper=None,
              how="declared", remark="B_h in eq. (6) of the paper"),
         Spec(name="Coulomb friction", value=device.mechanics.coulomb, unit="N", paper=None,

@@ -566,6 +566,23 @@ def test_specs_of_the_device_file_of_its_page() -> None:
     assert "paper" not in printed
 
 
+def test_specs_takes_the_configuration_of_a_run_and_says_what_its_device_starts_from() -> None:
+    Path("mine.toml").write_text(
+        "[bus]\n[device.kinematics]\ntype = 'Linear'\naxes = 2\n", encoding="utf-8"
+    )
+    told = ebac_command("specs", "--scenario", "mine.toml")
+    printed, noted = (" ".join(text.split()) for text in (told.stdout, told.stderr))
+    assert "what it leaves out is that of the device preset joystick" in printed
+    assert "weight 1.12 N" in printed
+    assert "gravity = 9.81 m/s^2 is that of the joystick" in noted
+
+
+def test_the_specs_of_a_file_that_is_not_there_are_refused_as_those_of_a_scenario() -> None:
+    result = CliRunner().invoke(app, ["specs", "--scenario", "none.toml"])
+    assert result.exit_code != 0
+    assert "none.toml" in result.stderr
+
+
 @pytest.mark.parametrize(
     ("typed", "found"),
     [
@@ -621,6 +638,17 @@ def test_the_mass_of_a_device_in_grams_is_noted_and_no_built_in_device_is() -> N
     assert "mass at the handle = 90.14 kg: usual are 0.001 to 20 kg" in said
     for preset in ebac.presets.DEVICES.values():
         assert doubtful_device.doubts(preset.device) == []
+
+
+@pytest.mark.parametrize(
+    ("radius", "limit", "noted"),
+    [(0.12, 26.0, True), (0.12, 1.5, False), (0.1, 10.0, False), (0.1, 26.0, True)],
+)
+def test_a_limit_in_degrees_is_noted_and_a_drum_of_many_turns_is_not(
+    radius: float, limit: float, noted: bool
+) -> None:
+    said = doubtful_device.doubts(ebac.Device(kinematics=ebac.Linear(radius=radius, limit=limit)))
+    assert [f"{limit:g} degrees are" in one for one in said] == [True] * noted
 
 
 @pytest.mark.parametrize(

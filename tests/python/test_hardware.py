@@ -3,6 +3,7 @@
 import gc
 import json
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -384,3 +385,20 @@ def test_the_first_lines_of_a_process_are_waited_for_but_not_for_ever() -> None:
             assert len(text(err)) == 1_000_000
         finally:
             end(process)
+
+
+@pytest.mark.slow
+def test_the_example_of_the_page_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    page = Path(__file__).parents[2] / "docs" / "how-to" / "run_on_hardware.md"
+    (code,) = re.findall(
+        r"```py\n(import time\n.*?)```", page.read_text(encoding="utf-8"), re.DOTALL
+    )
+    patient = "overruns = 100000\npause = 100.0\nforce_age = 10.0\njump = 1.0\nspeed = 100.0\n"
+    text = EXAMPLE.read_text(encoding="utf-8").replace("speed = 1.0 # m/s\n", patient)
+    (tmp_path / "joystick.toml").write_text(
+        text.replace("silent = 10 ", "silent = 1000 "), encoding="utf-8"
+    )
+    monkeypatch.chdir(tmp_path)
+    assert code.count("seconds=5") == 2
+    exec(code.replace("seconds=5", "seconds=2"), {})
+    assert (tmp_path / "run.mcap").exists()

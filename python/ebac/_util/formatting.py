@@ -155,10 +155,12 @@ def _device(device: Device) -> str:
     friction = f", friction {coulomb:g} N" if coulomb else ""
     if given_back := device.compensation.friction:
         friction += f", {given_back:g} N of friction compensated"
+    weight = device.mechanics.handle_mass * device.mechanics.gravity
+    hanging = f", weight {weight:.4g} N" if weight else ""
     level = device.sensor.noise
     noise = f", sensor noise {level:g} N" if level else ", sensor without noise"
     permille = ", torque in per mille" if device.drive.permille else ""
-    return f"{name} ({device.mass:.4g} kg, {device.mechanics.damping:g} N s/m{friction}{noise}{permille})"
+    return f"{name} ({device.mass:.4g} kg, {device.mechanics.damping:g} N s/m{hanging}{friction}{noise}{permille})"
 
 
 def described_hand(hand: Hand) -> str:

@@ -54,6 +54,7 @@ def presets(
             "name": name,
             "mass_kg": known.device.mass,
             "damping_Ns_per_m": known.device.mechanics.damping,
+            "weight_N": known.device.mechanics.handle_mass * known.device.mechanics.gravity,
             "axes": known.device.axes,
             "source": known.source,
         }
@@ -114,13 +115,16 @@ def _show_hands(rows: list[dict[str, Any]]) -> None:
 
 
 def _show_devices(rows: list[dict[str, Any]]) -> None:
-    grid = output.table(["device", "axes", "mass", "damping", "source"], numbers=(1, 2, 3))
+    grid = output.table(
+        ["device", "axes", "mass", "damping", "weight", "source"], numbers=(1, 2, 3, 4)
+    )
     for row in rows:
         grid.add_row(
             row["name"],
             str(row["axes"]),
             f"{row['mass_kg']:.4g} kg",
             f"{row['damping_Ns_per_m']:g} N s/m",
+            f"{row['weight_N']:.4g} N",
             row["source"],
         )
     output.show(grid)

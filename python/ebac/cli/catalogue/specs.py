@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from ebac._util.toml import parsed
 from ebac.cli import completion, files, output, setting
 
 if TYPE_CHECKING:
@@ -28,7 +29,8 @@ def specs(
     scenario: Annotated[
         Path | None,
         typer.Option(
-            help="The device of a scenario in TOML, such as one of your own.", show_default=False
+            help="The device of a scenario, or of a configuration of `ebac run`, in TOML.",
+            show_default=False,
         ),
     ] = None,
     figure: Annotated[
@@ -47,12 +49,14 @@ def specs(
 
     * `ebac presets reference > device.toml`, then `ebac specs --scenario device.toml`: the device of a file
 
+    * `ebac demo joystick`, then `ebac specs --scenario joystick.toml`: that of a configuration of `ebac run`
+
     * `ebac specs --device joystick-3 --figure workspace.png`: three axes, and a figure of the workspace
     """
     from ebac.specs import spec_sheet
 
     with output.refusing():
-        name, chosen = _chosen(device, scenario)
+        name, chosen, source = _chosen(device, scenario)
         sheet = spec_sheet(chosen)
         drawn = _draw(chosen, figure)
     if as_json:
@@ -63,29 +67,43 @@ def specs(
         _show_beside_paper(sheet)
     else:
         _show(sheet)
-    output.say(f"Device: {name}, {_source(name, scenario)}.")
+    output.say(f"Device: {name}, {source}.")
     for file in drawn:
         output.say(f"Its workspace: {file}.")
 
 
-def _chosen(name: str | None, scenario: Path | None) -> tuple[str, Device]:
-    """Return the device that is asked for, and what it is called."""
+def _chosen(name: str | None, scenario: Path | None) -> tuple[str, Device, str]:
+    """Return what the device that is asked for is called, the device, and where its numbers come from."""
     if scenario is None:
+        from ebac import presets
+
         name = name or _DEFAULT
-        return name, setting.known_device(name)
+        return name, setting.known_device(name), presets.DEVICES[name.lower()].source
     if name is not None:
         raise ValueError(
             f"--device {name}: the device of --scenario {scenario} is printed; give one of the two"
         )
-    return str(scenario), setting.base_scenario(scenario).device
+    return str(scenario), *_of_file(scenario)
 
 
-def _source(name: str, scenario: Path | None) -> str:
-    from ebac import presets
+def _of_file(file: Path) -> tuple[Device, str]:
+    from ebac.cli import doubtful_run
+    from ebac.scenario_text import is_configuration
 
-    if scenario is None:
-        return presets.DEVICES[name.lower()].source
-    return "what it leaves out is that of the reference device"
+    try:
+        configuration = is_configuration(file)
+    except (OSError, ValueError):
+        configuration = False  # refused as a scenario is
+    if not configuration:
+        device, base = setting.base_scenario(file).device, "reference device"
+    else:
+        from ebac.hardware import Configuration
+
+        known = Configuration.load(file)
+        doubtful_run.tell(file, known)
+        preset = parsed(known.text).get("device", {}).get("preset", "joystick")
+        device, base = known.device, f"device preset {preset}"
+    return device, f"what it leaves out is that of the {base}"
 
 
 def _show_beside_paper(sheet: list[Spec]) -> None:
