@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 from typer.testing import CliRunner
 
@@ -28,6 +29,7 @@ from ebac.studies.zwidth import (
     stiffness_limit,
     zwidth,
 )
+from ebac.studies.zwidth.result import SEEDS, STIFFNESSES
 
 NOBODY = ebac.Hand(mass=0, damping=0, stiffness=0)
 FINE = ebac.Device(encoder=ebac.Encoder(counts_per_turn=2**26))
@@ -198,6 +200,26 @@ def test_rows_and_scores(found: ZWidth) -> None:
     assert direct["usable_share"] == pytest.approx(found.limits["usable"][0, 0].mean() / found.top)
 
 
+def test_vibration_shows_how_near_a_law_is_to_its_border() -> None:
+    """A sensor of 0.05 N at 500 Hz leaves `ebac` hardly any wall: by 4 thresholds instead of 3, not by a cliff."""
+    sensor = ebac.ForceSensor(noise=0.05, period=0.002)
+    base = ebac.Scenario(device=ebac.Device(sensor=sensor), seconds=3.0)
+    few = search(base=base, laws="ebac", delays=(1,), rungs=2)
+    assert few.vibration.shape == (1, 1, len(STIFFNESSES), SEEDS)
+    rows = few.vibrations()
+    assert [row["stiffness_N_per_m"] for row in rows] == list(STIFFNESSES)
+    assert all(2.5 < row["perceived_least"] < row["perceived_largest"] < 5 for row in rows)
+    alone = base.replace(environment=ebac.Wall(stiffness=10e3), seed=3)
+    alone_vibrates = ebac.contact(ebac.simulate(alone, "ebac")).perceived
+    assert few.vibration[0, 0, 2, 2] >= alone_vibrates
+
+
+def test_a_run_that_ends_early_has_no_vibration(found: ZWidth) -> None:
+    gone = replace(found, vibration=np.full_like(found.vibration, np.nan))
+    assert gone.vibrations()[0]["perceived_largest"] is None
+    json.dumps(gone.vibrations(), allow_nan=False)
+
+
 def test_a_border_says_what_it_ends_by(found: ZWidth) -> None:
     """`direct` shakes, `eba` shows few walls at half of their stiffness."""
     assert found.ended_by("eba", 1)[0] == "too soft"
@@ -265,9 +287,25 @@ def test_the_figure_has_every_law_and_ceiling(found: ZWidth) -> None:
     figure.savefig("/dev/null", format="svg")
 
 
-def test_a_law_that_renders_nothing_says_so_at_its_bar(found: ZWidth) -> None:
+def test_a_ceiling_stands_in_the_panels_of_its_criterion_only(found: ZWidth) -> None:
+    figure = plot_zwidth(found)
+    columns, bars = len(found.delays), 1
+    own = [labels(ax) for ax in figure.axes[: len(figure.axes) - bars * columns : columns]]
+    stable = {"linear loop, no law", "linear loop by formula (Gil et al. 2009), hand on"}
+    passive = {"passive without a law"}
+    still, quiet, energy, usable = ({*row} & (stable | passive) for row in own)
+    assert (still, quiet, energy, usable) == (stable, set(), passive, set())
+
+
+def labels(ax: Axes) -> list[str]:
+    return ax.get_legend_handles_labels()[1]
+
+
+def test_a_law_that_renders_nothing_says_so_at_its_bar_and_in_the_legend(found: ZWidth) -> None:
     limits = {name: np.array([values[0], 0 * values[1]]) for name, values in found.limits.items()}
-    bars = plot_zwidth(replace(found, limits=limits)).axes[-1]
+    figure = plot_zwidth(replace(found, limits=limits))
+    assert "eba (none)" in [text.get_text() for text in figure.legends[0].get_texts()]
+    bars = figure.axes[-1]
     [none] = bars.texts
     assert (none.get_text(), none.xy) == ("none", (0, 1))  # type: ignore[attr-defined]
 
@@ -313,6 +351,7 @@ def test_the_command_tells_rows_and_scores() -> None:
     assert [row["damping_Ns_per_m"] for row in told["rows"]] == [0, 20]
     assert told["scores"][0]["quiet_times_direct"] == 1
     assert told["hands"] == 0
+    assert [row["stiffness_N_per_m"] for row in told["vibration"]] == list(STIFFNESSES)
 
 
 def test_the_command_writes_a_folder(tmp_path: Path) -> None:
@@ -323,8 +362,16 @@ def test_the_command_writes_a_folder(tmp_path: Path) -> None:
     assert re.search(r"direct +\d+ % +[\d.]+ kN/m ", text)
     assert "a wall at 0 mm" in text
     assert "sample of delay" not in text
+    assert "of the seeds 1 to 5, of a press or a tap" in " ".join(text.split())
     names = {path.name for path in (tmp_path / "out").iterdir()}
-    assert names == {"zwidth.png", "zwidth.json", "zwidth.csv", "scores.csv", "scenario.toml"}
+    assert names == {
+        "zwidth.png",
+        "zwidth.json",
+        "zwidth.csv",
+        "scores.csv",
+        "vibration.csv",
+        "scenario.toml",
+    }
 
 
 def test_words_for_the_end_of_a_wall_are_explained() -> None:

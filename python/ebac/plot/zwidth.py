@@ -19,16 +19,18 @@ if TYPE_CHECKING:
 #: Width of a border [points].
 WIDTH = 2.0
 #: The criteria drawn, a row of panels each.
-ROWS = {"quiet": "quiet", "energy": "at most {} mJ", "usable": "usable"}
-#: The ceilings: how each is drawn.
-CEILINGS: dict[str, dict[str, Any]] = {
-    "linear loop, no law": {"color": "black", "ls": (0, (5, 3)), "lw": 1.4},
-    "linear loop by formula (Gil et al. 2009), hand on": {
-        "color": "black",
-        "ls": (0, (1, 2)),
-        "lw": 1.4,
+ROWS = {"still": "still", "quiet": "quiet", "energy": "at most {} mJ", "usable": "usable"}
+#: The ceilings: how each is drawn, in the row of panels of its criterion.
+CEILINGS: dict[str, dict[str, dict[str, Any]]] = {
+    "still": {
+        "linear loop, no law": {"color": "black", "ls": (0, (5, 3)), "lw": 1.4},
+        "linear loop by formula (Gil et al. 2009), hand on": {
+            "color": "black",
+            "ls": (0, (1, 2)),
+            "lw": 1.4,
+        },
     },
-    "passive without a law": {"color": "0.45", "ls": (0, (6, 2, 1, 2)), "lw": 1.4},
+    "energy": {"passive without a law": {"color": "0.45", "ls": (0, (6, 2, 1, 2)), "lw": 1.4}},
 }
 
 
@@ -43,8 +45,9 @@ def plot_zwidth(found: ZWidth) -> Picture:
     Returns
     -------
     Figure
-        One column of panels per delay. A law that holds no wall, however soft, is named above the panel; one with
-        "none" at its bar is never quiet. Where borders coincide, their dashes take turns.
+        One column of panels per delay. A law that holds no wall, however soft, is named above the panel, and "none"
+        stands in the legend behind one that holds none in any of them; one with "none" at its bar is never quiet. Where
+        borders coincide, their dashes take turns.
     """
     columns = len(found.delays)
     bars = 0.9 + 0.26 * len(found.laws)
@@ -68,15 +71,19 @@ def plot_zwidth(found: ZWidth) -> Picture:
         ax.set_xlabel("wall damping B [N s/m]")
     grid[-1, 0].set_yticks(range(len(found.laws)), found.laws)
     grid[-1, 0].invert_yaxis()
-    handles, labels = grid[0, 0].get_legend_handles_labels()
-    figure_legend(figure, handles, labels, columns=5)
+    entries = dict(
+        entry
+        for ax in grid[: len(ROWS), 0]
+        for entry in zip(*reversed(ax.get_legend_handles_labels()), strict=True)
+    )
+    figure_legend(figure, list(entries.values()), list(entries), columns=5)
     parts = formatting.describe(found.base).split("; ")
     others = f" ({found.random_hands} included)" if found.hands else ""
     figure.suptitle(
         f"Z-width, simulated: {parts[0]}; {parts[1]}; {1e-3 / found.base.timing.dt:g} kHz\n"
-        "Hardest wall K that each law renders, by wall damping B, still and with a quiet force (quiet), with at most "
-        f"{1e3 * found.epsilon:g} mJ drawn from the port{others},\n"
-        "and with both and at least half of K shown (usable); bars: mean over B",
+        "Hardest wall K that each law renders, by wall damping B: still, still and with a quiet force (quiet), with at "
+        f"most {1e3 * found.epsilon:g} mJ drawn from the port{others},\n"
+        "and quiet with that energy and at least half of K shown (usable); bars: mean over B",
         fontsize="medium",
     )
     return figure
@@ -84,8 +91,9 @@ def plot_zwidth(found: ZWidth) -> Picture:
 
 def _borders(ax: Axes, found: ZWidth, criterion: str, d: int) -> None:
     shades = colours(found.laws)
-    for law, shade in shades.items():
-        ax.plot([], [], color=shade, lw=WIDTH, label=law)
+    for i, (law, shade) in enumerate(shades.items()):
+        none = not any(found.limits[name][i].any() for name in ROWS)
+        ax.plot([], [], color=shade, lw=WIDTH, label=f"{law} (none)" if none else law)
     drawn = [_kilo(found.limits[criterion][i, d]) for i in range(len(shades))]
     draw_shared(ax, found.dampings, drawn, list(shades.values()), WIDTH)
     ax.axhline(
@@ -98,11 +106,12 @@ def _borders(ax: Axes, found: ZWidth, criterion: str, d: int) -> None:
     if absent := [law for law, limit in zip(shades, drawn, strict=True) if np.isnan(limit).all()]:
         text = "\n".join(wrap(f"no wall: {', '.join(absent)}", 44))
         ax.set_title(text, fontsize="x-small", color="0.35", loc="left", pad=3)
-    ceilings = [(found.dampings, found.spectral[d]), *_ceilings(found, d)]
-    for (name, style), (dampings, ceiling) in zip(CEILINGS.items(), ceilings, strict=True):
+    for (name, style), (dampings, ceiling) in zip(
+        CEILINGS.get(criterion, {}).items(), _ceilings(found, criterion, d), strict=True
+    ):
         ax.plot(dampings, _kilo(ceiling), **style, label=name)
-    ax.set_yscale("log")
     ax.set_ylim(1e-3 * found.least, 1.3e-3 * found.top)
+    ax.set_yscale("log")  # after the limits: it finds none where all lines lie at the top
     ax.yaxis.set_major_formatter("{x:g}")
     ax.xaxis.set_major_locator(MaxNLocator(5))
     ax.xaxis.set_major_formatter("{x:g}")
@@ -110,17 +119,20 @@ def _borders(ax: Axes, found: ZWidth, criterion: str, d: int) -> None:
     ax.margins(x=0.03)
 
 
-def _ceilings(found: ZWidth, d: int) -> list[tuple[Numbers, Numbers]]:
+def _ceilings(found: ZWidth, criterion: str, d: int) -> list[tuple[Numbers, Numbers]]:
+    """Return damping and stiffness of each ceiling of a criterion, in the order of `CEILINGS`."""
     from ebac.studies.zwidth import delay_ceiling, passive_ceiling
 
     device, hand = found.base.device, found.base.hand
     timing = found.base.timing.replace(delay=found.delays[d])
     dampings = np.linspace(found.dampings[0], found.dampings[-1], 400)
     values = dampings.tolist()
-    return [
-        (dampings, np.array([delay_ceiling(device, timing, b, hand) for b in values])),
-        (dampings, np.array([passive_ceiling(device, timing, b) for b in values])),
-    ]
+    if criterion == "still":
+        formula = np.array([delay_ceiling(device, timing, b, hand) for b in values])
+        return [(found.dampings, found.spectral[d]), (dampings, formula)]
+    if criterion == "energy":
+        return [(dampings, np.array([passive_ceiling(device, timing, b) for b in values]))]
+    return []
 
 
 def _kilo(newton_per_metre: Numbers) -> Numbers:

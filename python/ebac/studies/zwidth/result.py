@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ebac._core import Wall
 from ebac.scenario import Scenario
 
 Numbers = NDArray[np.float64]
@@ -19,6 +20,10 @@ CRITERIA: dict[str, str] = {
     "energy": "takes no more than epsilon out of the port",
     "usable": "quiet, energy, and at least half of the stiffness shown at rest",
 }
+
+#: Stiffnesses at which the vibration of the force is shown [N/m], and for how many seeds of the noise.
+STIFFNESSES = (2e3, 5e3, 10e3, 20e3)
+SEEDS = 5
 
 VIBRATION = "vibration"
 #: What ends a usable border, by the criterion that ends at the same stiffness.
@@ -51,6 +56,10 @@ class ZWidth:
         Largest stiffness [N/m] by criterion, see `CRITERIA`.
     spectral : array, shape (delays, m)
         The same for the linear loop without a law: spectral radius below one; NaN for a device that is not linear.
+    vibration : array, shape (laws, delays, len(STIFFNESSES), SEEDS)
+        Vibration of the force [detection thresholds], the larger of press and tap, at each of `STIFFNESSES` and the
+        wall damping of `base`, with the seeds from that of `base` up; quiet is below 3. NaN where a run has none, as
+        one that ends early. It shows how near a law is to its border, and how far the noise moves it.
     """
 
     base: Scenario
@@ -63,6 +72,7 @@ class ZWidth:
     hands: int
     limits: dict[str, Numbers]
     spectral: Numbers
+    vibration: Numbers
 
     @property
     def random_hands(self) -> str:
@@ -131,6 +141,23 @@ class ZWidth:
                 rows.append(row)
         return rows
 
+    def vibrations(self) -> list[dict[str, Any]]:
+        """Return one row per law, delay and stiffness: least and largest vibration over the seeds [thresholds]."""
+        wall = self.base.environment
+        return [
+            {
+                "law": law,
+                "delay_samples": delay,
+                "damping_Ns_per_m": wall.damping if isinstance(wall, Wall) else None,
+                "stiffness_N_per_m": stiffness,
+                "perceived_least": _number(self.vibration[i, d, k].min()),
+                "perceived_largest": _number(self.vibration[i, d, k].max()),
+            }
+            for i, law in enumerate(self.laws)
+            for d, delay in enumerate(self.delays)
+            for k, stiffness in enumerate(STIFFNESSES)
+        ]
+
     def __repr__(self) -> str:
         """Return the stiffest wall of each law by criterion, its mean over the wall damping."""
         from ebac._util.report import plural, report
@@ -189,3 +216,8 @@ class ZWidth:
                 zip(self.dampings, self.ended_by(law, delay), strict=True)
             )
         ]
+
+
+def _number(value: float) -> float | None:
+    """Return a number, None for one that does not exist."""
+    return None if np.isnan(value) else float(value)

@@ -19,7 +19,7 @@ from ebac.studies.families import PULL, families
 from ebac.studies.sweeps import SweepResult, sweep
 from ebac.studies.sweeps.run import Laws, name_laws
 from ebac.studies.zwidth.linear import stiffness_limit
-from ebac.studies.zwidth.result import CRITERIA, Numbers, ZWidth
+from ebac.studies.zwidth.result import CRITERIA, SEEDS, STIFFNESSES, Numbers, ZWidth
 
 #: Wall dampings [N s/m]: up to ten times the reference device's own.
 DAMPINGS = (0.0, 2.5, 5.0, 7.5, 10.0, 12.5, 15.0, 17.5, 20.0)
@@ -97,7 +97,8 @@ def zwidth(
     timings = [scenario.timing.replace(delay=delay) for delay in delays]
     points = [(timing, float(damping)) for timing in timings for damping in dampings]
     ladder = np.geomspace(least, top, rungs)
-    total = len(named) * len(points) * (rungs + ROUNDS * len(CRITERIA)) * search.runs
+    shown = len(timings) * len(STIFFNESSES) * SEEDS * len(APPROACHES)
+    total = len(named) * (len(points) * (rungs + ROUNDS * len(CRITERIA)) * search.runs + shown)
     search.report = _counter(progress, total)
     shape = (len(named), len(timings), len(dampings))
     borders = [search.border(law, points, ladder) for law in named.values()]
@@ -106,6 +107,7 @@ def zwidth(
         least=least, top=top, epsilon=epsilon, hands=hands,
         limits={name: np.array([b[i] for b in borders]).reshape(shape) for i, name in enumerate(CRITERIA)},
         spectral=np.array([_spectral(scenario, *point) for point in points]).reshape(shape[1:]),
+        vibration=np.array([search.vibration(law, timings) for law in named.values()]),
     )  # fmt: skip
 
 
@@ -156,6 +158,23 @@ class _Search:
         energy, usable = (list(CRITERIA).index(name) for name in ("energy", "usable"))
         held[[energy, usable]] &= self.drawn(law, tasks, held[energy]) <= self.epsilon
         return held
+
+    def vibration(self, law: AnyLaw, timings: list[Timing]) -> Numbers:
+        """Return the vibration by timing, stiffness and seed, the larger of both approaches [thresholds]."""
+        wall = self.base.environment
+        damping = wall.damping if isinstance(wall, Wall) else 0.0
+        runs = [
+            self._scenario((timing, damping), stiffness, way).replace(seed=self.base.seed + more)
+            for timing in timings
+            for stiffness in STIFFNESSES
+            for more in range(SEEDS)
+            for way in APPROACHES
+        ]
+        result = sweep(runs, law, **self.how)
+        self.report(len(runs))
+        vibrates = np.where(_whole(result), result["perceived"], np.nan)
+        shape = (len(timings), len(STIFFNESSES), SEEDS, len(APPROACHES))
+        return np.asarray(vibrates.reshape(shape).max(axis=3))
 
     def drawn(self, law: AnyLaw, tasks: list[tuple[Point, float]], asked: Flags) -> Numbers:
         """Return the most energy that a random hand draws, for each wall that is asked for; else 0 [J]."""
