@@ -9,7 +9,7 @@ from typer.testing import CliRunner
 
 from ebac.cli import app
 from ebac.datasets import write
-from ebac.identify import Recording, Target, check_log
+from ebac.identify import Recording, Target, check_log, fit_arm
 
 
 @pytest.fixture(scope="module")
@@ -66,3 +66,29 @@ def test_a_metronome_that_is_right_gets_no_advice(tmp_path: Path) -> None:
     done = CliRunner().invoke(app, words)
     assert done.exit_code == 0
     assert "metronome" not in done.output
+
+
+@pytest.mark.slow
+def test_a_wrong_target_is_not_taken_for_a_wrong_sign(tmp_path: Path) -> None:
+    """With one switch of twelve the fit had no stiffness, which was said to be the device, by the other sign."""
+    write("tapping", tmp_path)
+    words = ["identify", "arm", str(tmp_path / "tapping.mcap"), "--switch", "1.0"]
+    done = CliRunner().invoke(app, words)
+    told = " ".join(done.output.split())
+    assert done.exit_code == 1
+    assert "is the target of the hand the right one (--switch with the time of every step" in told
+    assert "other sign" not in told
+    assert "--flip-force" not in told
+    assert "VAF below 0" in told
+
+
+@pytest.mark.slow
+def test_a_metronome_that_is_wrong_is_not_taken_for_a_wrong_sign() -> None:
+    """The spectra by a target of 1.0 Hz, where the hand taps at 0.8 Hz, showed a hand by the other sign only."""
+    result = fit_arm(log(1, 0.0), Target.tapping(1.0, SECONDS))
+    assert result.other_sign is not None
+    assert 0.5 < result.other_sign < 0.9
+    assert result.flip == ""
+    assert not any("--flip-force" in text for text in result.misses)
+    right = fit_arm(log(1, 0.0).flipped(), Target.tapping(RATE, SECONDS))
+    assert right.flip == "fit", "a sign that is wrong is still named"

@@ -109,8 +109,7 @@ class ArmResult:
         """Why the estimates are no result, one sentence each: the model explains less of the motion than no model."""
         if self.explained >= 0:
             return ()
-        share = f"{100 * self.explained:.3g} %"
-        return (f"the hand explains less of the motion than none would (VAF {share})",)
+        return ("the hand explains less of the motion than none would (VAF below 0)",)
 
     @cached_property
     def inseparable(self) -> tuple[tuple[str, str, float], ...]:

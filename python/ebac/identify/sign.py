@@ -11,7 +11,7 @@ from ebac.identify.parameters import HAND, kind
 from ebac.identify.plausible import is_hand
 from ebac.identify.recording import Recording
 from ebac.identify.target import Target
-from ebac.identify.validation import POOR
+from ebac.identify.validation import POOR, SURE
 
 if TYPE_CHECKING:
     from ebac.identify.result import ArmResult
@@ -29,14 +29,17 @@ def likely_flip(
     """Return what says that the force has the other sign: "fit", "spectra", or "" for nothing.
 
     How much of the motion a fit explains does not decide it: with the wrong sign it models device and wall, and that
-    explains all of it. Where a target moves, motion and force follow it, and these show the sign. Where none does,
-    the fit to the force of the other sign must be one of a hand.
+    explains all of it. Where a target moves, motion and force follow it, and these show the sign, unless the fit to the
+    force of the other sign explains too little: then the target is not the right one. Where none moves, that fit must
+    be one of a hand.
     """
     sound = _is_sound(other)
     if any(target.switches or target.path is not None for target in targets):
         pairs = zip(recordings, targets, strict=True)
         known = min((_other_sign(r, target) for r, target in pairs), default=inf)
-        return "fit" if sound and known < inf else "spectra" if known < PRECISE else ""
+        if sound and known < inf:
+            return "fit"
+        return "spectra" if known < PRECISE and other.explained > SURE else ""
     return "fit" if sound and other.explained > max(POOR, result.explained) else ""
 
 

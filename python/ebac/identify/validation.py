@@ -167,6 +167,16 @@ def seems_flipped(explained: float, other_sign: float | None) -> bool:
     return other_sign is not None and other_sign > max(POOR, explained)
 
 
+#: With the right sign a hand, and with the wrong one the device, explains more of the motion than this; with a target
+#: that is not the right one neither sign does: up to 0.77 in logs of hands that tap (tests/recordings/metronome.py).
+SURE = 0.9
+
+
+def told_share(explained: float) -> str:
+    """Return a share of the motion (VAF) in words: "97.7 %"; below none the number says nothing."""
+    return f"{100 * explained:.3g} %" if explained >= 0 else "below 0"
+
+
 #: What turning a force means, by what is turned.
 TURNED = {
     "force": "the force on the hand instead of the force of the hand",
@@ -184,7 +194,7 @@ def flip_advice(sentence: str, explained: float, other_sign: float, turned: str 
     words = {"force": "the force", "motor": "the motor's force"}
     other = " and ".join(words[n] for n in names)
     return (
-        f"{sentence.format(f'{100 * explained:.3g} %')}, with {other} of the other sign "
+        f"{sentence.format(told_share(explained))}, with {other} of the other sign "
         f"{100 * other_sign:.3g} %: the log seems to hold {', and '.join(TURNED[n] for n in names)}. {options} "
         f"{'turns the sign, and is to be left out where it was given' if len(names) == 1 else 'turn the signs'}, "
         f"in Python load(..., {', '.join(f'flip_{n}=True' for n in names)})."
@@ -207,11 +217,17 @@ def misses(result: ArmResult) -> tuple[str, ...]:
             "record one with more motion."
         )
     elif result.explained < POOR:
-        out.append(
-            f"The hand explains only {100 * result.explained:.3g} % of the motion (VAF): is the target of the hand the "
-            "right one (--switch, --tapping)?"
+        share = (
+            f"explains only {told_share(result.explained)} of the motion (VAF)"
+            if result.explained >= 0
+            else "explains less of the motion than none would (VAF below 0)"
         )
-    if without_place(result.parameters, result.values, Z95 * result.deviation):
+        out.append(
+            f"The hand {share}: is the target of the hand the right one (--switch with the time of every step, "
+            "--tapping, or the column target)?"
+        )
+    shown = max(result.explained, result.other_sign or 0.0) > SURE
+    if shown and without_place(result.parameters, result.values, Z95 * result.deviation):
         out.append(
             "The hand has no stiffness, so nothing ties it to a place: this is the device, or what it renders, seen "
             "with the force of the other sign. --flip-force turns it, in Python load(..., flip_force=True); "

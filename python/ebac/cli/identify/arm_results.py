@@ -9,6 +9,7 @@ from ebac.cli.identify import report as reporting
 
 if TYPE_CHECKING:
     from ebac.identify import ArmResult
+    from ebac.identify.validation import Prediction
 
 
 def careful(result: ArmResult) -> list[str]:
@@ -37,6 +38,13 @@ def names(result: ArmResult) -> list[str]:
     return out
 
 
+def _fit(p: Prediction) -> str:
+    """Return how well the hand predicts a recording; below no model at all the numbers say nothing."""
+    if p.vaf < 0:
+        return "VAF below 0: the hand explains less than none would"
+    return f"VAF {100 * p.vaf:.2f} %, NRMSE {100 * p.nrmse:.2f} %"
+
+
 def show(
     result: ArmResult, profiles: Any, predictions: Any, opinions: Any, remarks: dict[str, list[str]]
 ) -> None:
@@ -46,18 +54,18 @@ def show(
             output.say(f"{name}: {text}", style="dim")
     grid = output.table(["", "estimate", "95 % interval", "profile", "unit", ""], numbers=(1, 2, 3))
     for e in result.shown:
-        wide = "-" if e.fixed else f"{e.low:.4g} to {e.high:.4g}"
-        prof = "-" if e.name not in profiles else "{:.4g} to {:.4g}".format(*profiles[e.name])
+        scale, unit = (1e3, "mm") if e.unit == "m" else (1.0, e.unit)
+        wide = "-" if e.fixed else f"{scale * e.low:.4g} to {scale * e.high:.4g}"
+        ends = [scale * end for end in profiles.get(e.name, ())]
+        prof = "{:.4g} to {:.4g}".format(*ends) if ends else "-"
         word = "given" if e.fixed else "" if e.determined else "[red]not determined[/]"
-        grid.add_row(e.name, f"{e.value:.4g}", wide, prof, e.unit, word)
+        grid.add_row(e.name, f"{scale * e.value:.4g}", wide, prof, unit, word)
     output.show(output.filled(grid))
     for text in names(result):
         output.say(text)
     for p in predictions:
         kind = "held out" if p.held_out else "fitted"
-        output.say(
-            f"{p.recording} ({kind}): from the force alone VAF {100 * p.vaf:.2f} %, NRMSE {100 * p.nrmse:.2f} %"
-        )
+        output.say(f"{p.recording} ({kind}): from the force alone {_fit(p)}")
     for o in opinions:
         if o.name in result.undetermined:
             output.say(
@@ -93,10 +101,7 @@ def write(
 
     notes = [f"{name}: {text}" for name, lines in remarks.items() for text in lines]
     notes += [*names(result), *result.notes]
-    notes += [
-        f"{p.recording}: VAF {100 * p.vaf:.2f} %, NRMSE {100 * p.nrmse:.2f} %{' (held out)' if p.held_out else ''}"
-        for p in predictions
-    ]
+    notes += [f"{p.recording}: {_fit(p)}{' (held out)' if p.held_out else ''}" for p in predictions]
     notes += [
         f"{o.name}: direct {o.direct:.4g} {o.unit}, by instruments {o.unbiased:.4g} {o.unit}"
         for o in opinions
