@@ -118,8 +118,10 @@ def test_more_than_three_laws_get_panels_of_their_own(run: Run) -> None:
     laws = ("direct", "tca", "eba", "ebac")
     figure = plot_walls([run(law, seconds=1.0, observer=False) for law in laws])
     titles = [ax.get_title() for ax in figure.axes if ax.get_title()]
-    assert titles == list(laws)
-    assert len(figure.axes) == 2 * len(laws) + 2 + 1  # beta for two of them, the end
+    assert titles == [*laws, "eba", "ebac"]
+    assert len(figure.axes) == 2 * len(laws) + 2 + 1  # beta for two of them, beside the end
+    rows = {ax.get_subplotspec().rowspan.start for ax in figure.axes}
+    assert len(rows) == 3, "no row of panels for beta alone"
 
 
 def test_beta_has_its_panel_in_walls(run: Run) -> None:

@@ -117,9 +117,14 @@ def _together(traces: Sequence[Trace], rows: list[str], near: bool) -> tuple[Pic
 
 
 def _apart(traces: Sequence[Trace], rows: list[str], near: bool) -> tuple[Picture, Axes | None]:
-    """Draw each law in panels of its own, three or four laws abreast."""
+    """Draw each law in panels of its own, three or four laws abreast; few panels of beta stand beside the end."""
     abreast = min((3, 4), key=lambda n: -len(traces) % n)  # leaving the fewest places empty
     bands = [traces[i : i + abreast] for i in range(0, len(traces), abreast)]
+    beside = [trace for trace in traces if _has_beta(trace)] if near and "beta" in rows else []
+    if len(beside) > abreast // 2:
+        beside = []
+    if beside:
+        rows = [row for row in rows if row != "beta"]
     lines = [
         (band, row) for band in bands for row in rows if row != "beta" or any(map(_has_beta, band))
     ]
@@ -146,10 +151,19 @@ def _apart(traces: Sequence[Trace], rows: list[str], near: bool) -> tuple[Pictur
             ax.tick_params(labelbottom=last, labelleft=left)
             if last:
                 ax.set_xlabel("time [s]")
+    for place, trace in enumerate(beside, abreast - len(beside)):
+        ax = figure.add_subplot(grid[-1, place], sharey=first.get("beta"), sharex=first["x"])
+        left = "beta" not in first
+        first.setdefault("beta", ax)
+        _lines(ax, "beta", _parts(trace, contact)[0], label="_")
+        dress(ax, ROWS["beta"] if left else "")
+        ax.tick_params(labelleft=left)
+        ax.set_title(_label(trace), color=colour(trace.law), fontweight="bold")
+        ax.set_xlabel("time [s]")
     marks = {label: mark for ax in figure.axes for label, mark in _marks(ax).items()}
     if marks:
         figure_legend(figure, list(marks.values()), list(marks))
-    return figure, figure.add_subplot(grid[-1, :]) if near else None
+    return figure, figure.add_subplot(grid[-1, : abreast - len(beside)]) if near else None
 
 
 def _marks(ax: Axes) -> dict[str, Artist]:
