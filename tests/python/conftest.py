@@ -34,6 +34,7 @@ import ebac
 if TYPE_CHECKING:
     import can
 
+    from ebac import ForceSensor
     from ebac.hardware import Configuration, OpenDevice, Run
     from ebac.sensor import SensorConfig, SharedForce, SimulatedSensor
 
@@ -153,7 +154,7 @@ def open_with_sensor() -> Callable[
 
         @contextmanager
         def beside(
-            config: "SensorConfig", shared_force: "SharedForce", *_: object
+            config: "SensorConfig", own: "ForceSensor", shared_force: "SharedForce", *_: object
         ) -> Iterator["SensorConfig"]:
             with SimulatedSensor(shared_force) as sensor:
                 made.append(sensor)

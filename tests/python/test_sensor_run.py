@@ -89,6 +89,20 @@ def test_a_simulated_sensor_has_the_bias_of_the_device_and_no_zero_of_its_own() 
     assert biased.simulate(seconds=0.1)["f_meas"][5, 0] == pytest.approx(2.0, abs=0.5)
 
 
+def test_a_simulated_sensor_sends_as_many_records_as_its_period_says() -> None:
+    """A sensor of 500 Hz sent 1000 records a second, every second one a repetition."""
+    known = configuration()
+    own = known.device.sensor.replace(period=0.002, noise=0.03)
+    slow = known.replace(device=known.device.replace(sensor=own))
+    with ebac.Device.open(slow, simulate=True) as device:
+        trace = under_the_law(device.run(seconds=1.5))
+    span = trace["t"][-1] - trace["t"][0]
+    received = np.diff(trace["ft.received"][[0, -1], 0])[0]
+    assert received / span == pytest.approx(500, rel=0.05)
+    changes = np.count_nonzero(np.diff(trace["f_meas"][:, 0]))
+    assert changes / received == pytest.approx(1, abs=0.1)
+
+
 def test_a_run_without_its_sensor_does_not_begin(desk: Desk) -> None:
     device, sensor = desk
     sensor.inject(EmulatorTrouble(silent=True))

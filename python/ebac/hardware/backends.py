@@ -18,6 +18,7 @@ from ebac.hardware.report import grant_row
 
 if TYPE_CHECKING:
     from ebac._core import (
+        ForceSensor,
         Grant,
         LoopbackHub,
         LoopbackJoystick,
@@ -30,6 +31,7 @@ if TYPE_CHECKING:
     )
     from ebac.hardware.configuration import Configuration
     from ebac.hardware.signs import Signs
+    from ebac.scenario import Scenario
     from ebac.sensor import SensorConfig, SimulatedSensor
 
 #: How long a simulated drive may take to answer [s]: it shares its processors with all else.
@@ -157,6 +159,9 @@ def simulated(
     # The loop's thread asks for the memory of this process.
     request = Request.beside(configuration.mode, configuration.realtime, lock_memory=False)
     shared_force, grants = SharedForce([0.0, 0.0, 0.0]), []
+    own = scenario.device.sensor
+    if configuration.sensor is not None:
+        scenario = unheld(scenario)
 
     def nodes(hub: LoopbackHub) -> AbstractContextManager[object]:
         served = LoopbackJoystick(
@@ -174,7 +179,7 @@ def simulated(
     channel = f"run-{os.getpid()}-{next(_numbers)}"
     with (
         standing(channel, nodes) as hub,
-        sensor_of(configuration.sensor, shared_force, request, grants) as sensor,
+        sensor_of(configuration.sensor, own, shared_force, request, grants) as sensor,
     ):
         yield Backend(
             interface="ebac",
@@ -212,6 +217,7 @@ class Request:
 @contextmanager
 def sensor_of(
     known: SensorConfig | None,
+    own: ForceSensor,
     shared_force: SharedForce,
     request: Request,
     grants: list[Grant],
@@ -221,8 +227,9 @@ def sensor_of(
     """Put a simulated sensor that measures a shared force on this machine's own network; None for none.
 
     It scales counts as the configured one does, and is mounted in the same way. It has no offset that the configured
-    `bias` would take off, so its own is 0; `device.sensor.bias` is in the force. `grants` gets what its thread got;
-    `port` 0 is any free UDP port.
+    `bias` would take off, so its own is 0; `device.sensor.bias` is in the force. It sends a record in every period of
+    the device's `own` sensor, 1000 a second without one. `grants` gets what its thread got; `port` 0 is any free UDP
+    port.
     """
     if known is None:
         yield None
@@ -231,7 +238,9 @@ def sensor_of(
     from ebac.sensor import SimulatedSensor
 
     options = EmulatorOptions(
-        counts_per_force=known.counts_per_force, counts_per_torque=known.counts_per_torque
+        rate=_records(own.period),
+        counts_per_force=known.counts_per_force,
+        counts_per_torque=known.counts_per_torque,
     )
     emulated = SimulatedSensor(
         shared_force,
@@ -244,6 +253,22 @@ def sensor_of(
     with at_work(emulated, request, "the simulated sensor", grants):
         host, port = emulated.address
         yield known.replace(host=host, port=port, bias=(0.0,) * 6)
+
+
+def _records(period: float) -> float:
+    """Return how many records a simulated sensor sends [Hz], from the period of the device's own [s]."""
+    from ebac._core import EmulatorOptions
+
+    if period == 0:
+        return EmulatorOptions().rate
+    fewest, most = 1.0, 7000.0
+    return min(most, max(fewest, 1 / period))
+
+
+def unheld(scenario: Scenario) -> Scenario:
+    """Return the scenario for a plant beside a sensor on the network, whose records alone are as slow as its period."""
+    device = scenario.device
+    return scenario.replace(device=device.replace(sensor=device.sensor.replace(period=0.0)))
 
 
 def virtual_can(root: Path = Path("/sys/class/net")) -> str | None:

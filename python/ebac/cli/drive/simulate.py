@@ -153,7 +153,7 @@ def simulate(
     """
     from ebac._core import DriveWiring, RealTime, SharedForce, SharedHandTarget
     from ebac.drives.simulate import Simulation
-    from ebac.hardware.backends import Request, sensor_of
+    from ebac.hardware.backends import Request, sensor_of, unheld
 
     if realtime not in MODES:
         output.fail(unknown(f"--realtime {realtime}", realtime, MODES))
@@ -171,7 +171,8 @@ def simulate(
             raise ValueError(
                 f"--sensor: {configuration} has no table [sensor]; add one, or leave --sensor out"
             )
-        setup = found.scenario.setup()
+        own = found.scenario.device.sensor
+        setup = (unheld(found.scenario) if sensor else found.scenario).setup()
         loop = RealTime(priority=beside, lock_memory=lock_memory)
         request = Request.beside(realtime, loop)
         cell = None if aim is None else SharedHandTarget(aim)
@@ -186,7 +187,7 @@ def simulate(
         measured = found.sensor if sensor else None
         ids = found.wiring["nodes"]
         with (
-            sensor_of(measured, shared_force, request, grants, port=found.sensor_port) as at,
+            sensor_of(measured, own, shared_force, request, grants, port=found.sensor_port) as at,
             _at_work(
                 setup, interface, channel, bitrate or found.bitrate, ids, more, request, grants
             ) as work,
