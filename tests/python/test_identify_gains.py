@@ -337,6 +337,44 @@ def test_the_command_writes_a_report_and_json(
 
 
 @pytest.mark.usefixtures("few_looks")
+def test_the_command_takes_device_wall_and_delay_of_a_file(
+    tmp_path: Path, trace: ebac.Trace, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """It chose gains for the reference device and a wall of 10 kN/m, and nothing could change that."""
+    monkeypatch.setattr(identify, "fit_gains", partial(fit_gains, evaluations=3))
+    trace.to_npz(tmp_path / "log.npz")
+    file = tmp_path / "device.toml"
+    file.write_text(
+        "[device.drive]\npeak_ratio = 2.0\n[environment]\nstiffness = 4e3\n[timing]\ndelay = 2\n"
+    )
+    seen = []
+    monkeypatch.setattr(
+        identify, "fit_loop", lambda *a, **k: (seen.append(k), fit_loop(*a, **k))[1]
+    )
+    words = [
+        "identify",
+        "gains",
+        str(tmp_path / "log.npz"),
+        "--tapping",
+        "1.5",
+        "--law",
+        "tca-damped",
+    ]
+    run = CliRunner().invoke(app, [*words, "--scenario", str(file)])
+    assert run.exit_code == 0, run.output
+    (given,) = seen
+    assert given["device"].drive.peak_ratio == 2.0
+    assert given["wall"].stiffness == 4e3
+    assert given["timing"].delay == 2
+    assert 'name = "tca-damped"' in run.stdout
+    assert "# s" in run.stdout
+    file.write_text("[environment]\ntype = 'Free'\n")
+    refused = CliRunner().invoke(app, [*words, "--scenario", str(file)])
+    assert refused.exit_code == 2
+    assert "environment is a Free: gains are chosen at a wall" in " ".join(refused.output.split())
+
+
+@pytest.mark.usefixtures("few_looks")
 def test_the_command_prints_what_it_guessed_of_the_log(
     tmp_path: Path, trace: ebac.Trace, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -112,12 +112,12 @@ def fit_loop(
     result = fit_arm(recordings, targets, **arm)
     first = recordings if isinstance(recordings, Recording) else recordings[0]
     remarks: list[str] = []
-    found = _device_of(first, remarks)
+    found = _device_of(first, remarks, "the reference device" if device is None else "as given")
     known = _merged(device or Device(), found, first, remarks)
     if wall is None:
         wall = wall_of(first)
         remarks.append(
-            "wall: of 10 kN/m, the log has no force asked for"
+            "wall: of 10 kN/m, not known, as the log has no force asked for (column desired)"
             if wall is None
             else f"wall: {wall.stiffness:.4g} N/m, from the force asked for"
         )
@@ -134,14 +134,14 @@ def fit_loop(
     )
 
 
-def _device_of(r: Recording, remarks: list[str]) -> DeviceResult | None:
+def _device_of(r: Recording, remarks: list[str], whose: str) -> DeviceResult | None:
     if r.motor is None:
-        remarks.append("device: as given, the log has no force of the motor")
+        remarks.append(f"device: {whose}, the log has no force of the motor")
         return None
     try:
         return fit_device(r, current_lag=r.current_lag)
     except ValueError as error:
-        remarks.append(f"device: as given, not determined by this log ({error})")
+        remarks.append(f"device: {whose}, not determined by this log ({error})")
         return None
 
 

@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from ebac.cli import completion, output
+from ebac.cli import completion, output, setting
 from ebac.cli.by_name import one_law
 from ebac.cli.identify import options as given
 from ebac.cli.identify import report as reporting
 
 if TYPE_CHECKING:
+    from ebac import Device, Wall
     from ebac.identify import GainsResult
 
 LIMITS = "Constraints"
@@ -34,9 +36,24 @@ def gains(
     ] = "ebac",
     fix: given.Fix = None,
     robust: given.Robust = None,
+    scenario: Annotated[
+        Path | None,
+        typer.Option(
+            help="A scenario in TOML with your device: motor, drive, encoder; with [environment] the wall is that of "
+            "the file, not of the log, and with [timing] the delay.",
+            show_default="the reference device",
+            rich_help_panel=given.FIT,
+        ),
+    ] = None,
     delay: Annotated[
-        int, typer.Option(help="Transport delay [samples].", min=0, rich_help_panel=given.FIT)
-    ] = 1,
+        int | None,
+        typer.Option(
+            help="Transport delay [samples].",
+            min=0,
+            show_default="1, or that of the file",
+            rich_help_panel=given.FIT,
+        ),
+    ] = None,
     vary: Annotated[
         float,
         typer.Option(
@@ -108,6 +125,8 @@ def gains(
     * `ebac demo press`, then `ebac identify gains press.csv --switch 1.0`
 
     * `ebac identify gains press.csv --switch 1.0 --law tca-damped --out report`
+
+    * `ebac identify gains press.csv --switch 1.0 --scenario device.toml`: on your device, as described in a file
     """
     from ebac import Timing
     from ebac.identify import Limits, fit_gains, fit_loop
@@ -124,12 +143,14 @@ def gains(
         law = one_law(law)
         pairs = given.given_logs(logs, reading, target)
         recordings, targets = [r for r, _ in pairs], [one for _, one in pairs]
-        timing = Timing(dt=round(recordings[0].dt, 9), delay=delay)
+        device, wall, usual = _parts(scenario)
+        timing = Timing(dt=round(recordings[0].dt, 9), delay=usual if delay is None else delay)
         loop = fit_loop(
-            recordings, targets, timing=timing, fixed=given.numbers(fix, "--fix"), robust=robust
-        )
+            recordings, targets, device=device, wall=wall, timing=timing, fixed=given.numbers(fix, "--fix"),
+            robust=robust,
+        )  # fmt: skip
         result = fit_gains(loop, law, limits=limits, vary=vary, progress=progress)
-    files = _write(to, result)
+    files = _write(to, result, scenario)
     if as_json:
         more = result.to_dict()
         rows = more.pop("rows")
@@ -143,11 +164,37 @@ def gains(
     for name in names:
         grid.add_row(name, *(row[name] for row in table))
     output.show(output.filled(grid))
-    for text in _notes(result):
+    for text in _notes(result, scenario):
         output.say(text)
+    output.say("In a configuration of `ebac run`:")
+    output.indented(_table_of_law(result))
     output.say("Simulated, not measured.", style="bold")
     if to.out is not None:
         output.list_files(to.out, files)
+
+
+def _parts(file: Path | None) -> tuple[Device | None, Wall | None, int]:
+    """Return device, wall and delay [samples] of a scenario file; None where a part is not that of a file."""
+    from ebac import Linear, Wall
+    from ebac._util.text_file import read_text
+    from ebac._util.toml import parsed
+
+    base = setting.base_scenario(file)
+    if file is None:
+        return None, None, base.timing.delay
+    device = base.device
+    if not isinstance(device.kinematics, Linear):
+        device = device.replace(
+            kinematics=Linear(radius=device.radius)
+        )  # presses go along one axis
+    if "environment" not in parsed(read_text(file)):
+        return device, None, base.timing.delay
+    if not isinstance(base.environment, Wall):
+        raise ValueError(
+            f"--scenario {file}: environment is a {type(base.environment).__name__}: gains are chosen at a wall; give "
+            "a file with a wall, or one without [environment]"
+        )
+    return device, base.environment, base.timing.delay
 
 
 def _cells(result: GainsResult) -> list[dict[str, str]]:
@@ -172,8 +219,11 @@ def _cells(result: GainsResult) -> list[dict[str, str]]:
     ]
 
 
-def _notes(result: GainsResult) -> list[str]:
+def _notes(result: GainsResult, file: Path | None) -> list[str]:
     limits = result.limits
+    whose = (
+        "the reference device: --scenario FILE takes those of yours" if file is None else str(file)
+    )
     return [
         f"{len(result.hands)} hands, {len(result.chosen.presses.goals)} presses, {len(result.tried)} pairs of gains. "
         "Relative to the default gains, geometric mean over the presses: "
@@ -182,11 +232,17 @@ def _notes(result: GainsResult) -> list[str]:
         "Constraints: overshoot "
         f"{1e3 * (limits.overshoot or 0):.2f} mm, force {limits.force:.1f} N, current {limits.current:.2f} A, "
         f"noise gain {limits.noise_gain:g}, energy {1e3 * limits.energy:g} mJ.",
+        f"Motor, drive and encoder are those of {whose}.",
         f'In Python: ebac.laws.Variant("{result.name}", {{"kp": {result.kp:.4g}, "kd": {result.kd:.4g}}})',
     ]
 
 
-def _write(to: reporting.ReportOptions, result: GainsResult) -> list[str]:
+def _table_of_law(result: GainsResult) -> str:
+    """Return the gains as the table of a configuration of `ebac run`."""
+    return f'[law]\nname = "{result.name}"\nkp = {result.kp:.4g} # 1\nkd = {result.kd:.4g} # s'
+
+
+def _write(to: reporting.ReportOptions, result: GainsResult, scenario: Path | None) -> list[str]:
     from ebac.identify.figures import plot_gains
 
     hand = [str(e) for e in result.loop.arm.estimates.values() if e.name in ("M0", "B0", "K0")]
@@ -196,6 +252,12 @@ def _write(to: reporting.ReportOptions, result: GainsResult) -> list[str]:
         title=f"K_p and K_d of eq. (2) for {result.name}",
         rows=_cells(result),
         careful=[],
-        notes=[*hand, *result.loop.remarks, *_notes(result), "Simulated, not measured."],
+        notes=[
+            *hand,
+            *result.loop.remarks,
+            *_notes(result, scenario),
+            _table_of_law(result),
+            "Simulated, not measured.",
+        ],
         draw=[lambda: plot_gains(result)],
     )
