@@ -11,7 +11,8 @@ from typer.testing import CliRunner
 
 import ebac
 from ebac._util import formatting
-from ebac.cli import app, doubtful_device
+from ebac.cli import app, doubtful_device, doubtful_sensor
+from ebac.sensor import SensorConfig
 
 COMMANDS = ("wall", "paper", "laws", "specs", "presets", "bench")
 WALL_KEYS = [
@@ -741,3 +742,23 @@ def test_a_mesh_without_its_library_is_refused_in_a_sentence(
     assert "meshes need trimesh: pip install 'ebac[worlds]'" in refusal(
         "wall", "--scenario", str(file)
     )
+
+
+def test_a_configuration_whose_wall_or_sensor_is_likely_in_a_wrong_unit_is_noted(
+    tmp_path: Path,
+) -> None:
+    """A wall of 5 N/m (5 kN/m was meant) and one count a newton were run without a word."""
+    example = (Path(__file__).parents[2] / "examples" / "joystick.toml").read_text()
+    file = tmp_path / "joystick.toml"
+    file.write_text(
+        example.replace("stiffness = 10e3", "stiffness = 5.0").replace(
+            "counts_per_force = 1e6", "counts_per_force = 1.0"
+        )
+    )
+    done = CliRunner().invoke(app, ["run", str(file), "--virtual", "--seconds", "0.2"])
+    noted = " ".join(done.stderr.split())
+    assert "environment.stiffness: a wall of 5 N/m: usual are 50 to 500000 N/m" in noted
+    assert (
+        "sensor.counts_per_force = 1 counts/(N): a step of 1 N, usual are at most 0.25 N" in noted
+    )
+    assert doubtful_sensor.doubts(SensorConfig()) == []

@@ -69,3 +69,15 @@ def test_a_motor_that_never_changes_is_left_out(tmp_path: Path, arm: Recording) 
     recording = identify.load(log)
     assert recording.motor is None
     assert "motor is left out: constant at 0 N" in recording.remarks
+
+
+def test_a_guessed_column_says_its_unit(tmp_path: Path) -> None:
+    t = np.arange(0, 3, 1e-3)
+    table = np.array([1e3 * t, 10 * np.sin(10 * t), 3 * np.cos(10 * t)]).T
+    file = tmp_path / "log.csv"
+    np.savetxt(file, table, delimiter=",", header="time_ms,pos_mm,force_N", comments="")
+    remarks = identify.load(file).remarks
+    assert "x: guessed to be column 'pos_mm'" in remarks
+    assert "x: in mm, as its heading says" in remarks
+    asked = identify.load(file, units={"x": "mm"}, columns={"x": "pos_mm"}).remarks
+    assert not any("x: in" in text for text in asked)

@@ -291,10 +291,11 @@ def _fit(source: Source, values: Mapping[str, Any]) -> None:
         for key, mine, name in _SAME:
             theirs, own = node.profile.values.get(key), mine(values["device"])
             if theirs is not None and abs(float(theirs) - own) > 0.01 * own:
+                what = "position" if name.startswith("encoder.") else "force"
                 raise source.refuse(
                     ("bus", "drives"),
                     f"bus.drives: node {node.id} of {drives.name} has {key} = {float(theirs):g}, the device "
-                    f"{name} = {own:g}: must be the same within 1 %, or every force is wrong; set one of them",
+                    f"{name} = {own:g}: must be the same within 1 %, or every {what} is wrong; set one of them",
                 )
     refusing(
         source,

@@ -95,6 +95,8 @@ def in_si(
             )
     for key, (quantity, unit) in found.items():
         if unit is not None:
+            if key in guessed and key not in units:
+                remarks.append(f"{key}: in {unit}, as its heading says")
             continue
         kind = quantity or QUANTITIES[key][0]
         if quantity is None and key != "x" and found["x"][0] in ("angle", "count"):

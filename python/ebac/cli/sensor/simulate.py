@@ -65,7 +65,8 @@ def simulate(
 
     It uses the protocol of the ATI Net F/T (RDT over UDP), so every program for that sensor can read it. It measures
     the hand of a scenario, which moves its device without power, or a steady force. Like the real sensor it has one
-    client at a time: the last one to ask gets the stream.
+    client at a time: the last one to ask gets the stream. The hand holds the handle 20 mm from the sensor along its z
+    axis, so a force across that axis also shows as a torque: 3 N along x as 0.06 N m about y.
 
     **Examples**
 
