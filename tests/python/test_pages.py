@@ -289,7 +289,9 @@ def test_a_command_that_does_not_exist_is_noticed() -> None:
 def test_a_command_is_run_with_fewer_hands_before_its_output_goes_elsewhere() -> None:
     assert as_run("ebac study > table.txt").split()[-2:] == [">", "table.txt"]
     assert "--hands" in as_run("ebac study > table.txt").partition(">")[0]
-    assert as_run("ebac wall --law tca") == "ebac wall --law tca --seconds 1"
+    assert as_run("ebac wall --law tca") == "ebac wall --law tca --seconds 1 --no-files"
+    assert as_run("ebac wall") == "ebac wall --seconds 1"
+    assert as_run("ebac wall --law tca --out a") == "ebac wall --law tca --out a --seconds 1"
     assert as_run("ebac laws") == "ebac laws"
     assert as_run("ebac study -c holds --law ebac").startswith("ebac study -c hold-K20 --law ebac")
 
