@@ -29,6 +29,9 @@ LONG = {
     "track --simulated --runs 100000": "--runs",
     "tune tca --evaluations 100000": "the best so far was printed",
 }
+#: What CI interrupts: workers, threads of the core, a search, a file to resume from, a best that was printed. Each of
+#: the others stops as one of these does.
+IN_CI = ("identify", "faults", "worst", "map", "tune")
 #: Processor time after which a command is at its work [s].
 BUSY = 2.0
 
@@ -77,7 +80,10 @@ def interrupted(words: str, folder: Path, kept: str = "") -> tuple[int, str, flo
             os.killpg(process.pid, signal.SIGKILL)
 
 
-@pytest.mark.parametrize("words", list(LONG))
+@pytest.mark.parametrize(
+    "words",
+    [w if w.startswith(IN_CI) else pytest.param(w, marks=pytest.mark.weekly) for w in LONG],
+)
 @pytest.mark.slow
 def test_ctrl_c_says_what_is_kept_and_how_to_go_on(words: str, tmp_path: Path) -> None:
     for name in ("press", "joystick"):

@@ -301,7 +301,8 @@ def test_three_processes_with_a_cut(tmp_path: Path) -> None:
 @pytest.mark.slow
 @pytest.mark.real_time
 @pytest.mark.parametrize(
-    "killed", ["master", "slave", pytest.param("network", marks=pytest.mark.weekly)]
+    "killed",
+    ["master", *(pytest.param(one, marks=pytest.mark.weekly) for one in ("slave", "network"))],
 )
 def test_a_killed_process_leaves_the_others_safe(tmp_path: Path, killed: str) -> None:
     done: list[int] = []

@@ -48,6 +48,7 @@ HANDS = (
 )
 
 
+@pytest.mark.slow
 def test_without_the_motor_the_intervals_hold_the_truth() -> None:
     apart = []
     for seed, mass, damping, stiffness, lag, handle in HANDS:

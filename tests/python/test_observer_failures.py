@@ -226,8 +226,9 @@ def test_a_hand_that_shakes_the_account_empty_is_not_lent_more(frequency: float)
 @pytest.mark.parametrize(
     ("condition", "family", "seed"),
     [
-        ("d2K10", "periodic", 4),  # 2.2 mJ: it pulls faster than the guard counted with
-        ("d2b1K20", "periodic", 5),  # 2.2 mJ
+        # 2.2 mJ: it pulls faster than the guard counted with
+        pytest.param("d2K10", "periodic", 4, marks=pytest.mark.weekly),
+        pytest.param("d2b1K20", "periodic", 5, marks=pytest.mark.weekly),  # 2.2 mJ
         ("d2b1K20", "swinging", 4),  # 6.3 mJ: the account was lent more where the observer went
     ],
 )

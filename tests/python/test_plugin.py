@@ -74,6 +74,7 @@ def test_a_difference_is_named_drawn_and_updated_by_the_flag(project: pytest.Pyt
     project.runpytest_inprocess().assert_outcomes(passed=1)
 
 
+@pytest.mark.slow
 def test_only_what_is_missing_is_written_without_the_flag(project: pytest.Pytester) -> None:
     folder = wall(project, 300)
     project.runpytest_inprocess()

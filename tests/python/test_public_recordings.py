@@ -59,6 +59,7 @@ def test_the_twin_of_the_axis_gives_the_published_parameters(axis_log: Path) -> 
     assert again.value == pytest.approx(rows["B_h"]["value"], rel=1e-9)
 
 
+@pytest.mark.slow
 def test_intervals_of_twins_hold_the_truth_without_bias(tmp_path: Path) -> None:
     """Damping and friction were 0.9 % off, outside of most intervals."""
     errors, held = [], []

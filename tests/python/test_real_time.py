@@ -42,7 +42,13 @@ TEST = """
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("more", [(), ("-n", "1")], ids=["here", "in a worker"])
+@pytest.mark.parametrize(
+    "more",
+    [
+        pytest.param((), id="here"),
+        pytest.param(("-n", "1"), id="in a worker", marks=pytest.mark.weekly),
+    ],
+)
 def test_a_stall_is_repeated_more_often_and_what_is_not_of_the_clock_never(
     pytester: pytest.Pytester, more: tuple[str, ...]
 ) -> None:

@@ -189,6 +189,7 @@ def test_a_kill_loses_50_ms_of_rows_at_most(case: int, config: Path, tmp_path: P
     assert len(ebac.logs.repair(path).trace) == len(log.trace)
 
 
+@pytest.mark.slow
 def test_a_fault_is_exit_code_1_and_keeps_the_log(config: Path, tmp_path: Path) -> None:
     config.write_text(config.read_text().replace("speed = 100.0", "speed = 0.02"))
     out = tmp_path / "out"

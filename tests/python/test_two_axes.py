@@ -421,6 +421,7 @@ def tracing(radius: float, press: float, frequency: float, hand: ebac.Hand) -> e
     mass=st.floats(0.05, 0.5),
 )
 @example(radius=0.01, press=1.8, frequency=2, stiffness=10e3, delay=1, mass=0.15)
+@pytest.mark.slow
 def test_a_hand_that_traces_a_disc_keeps_it(
     device: str,
     radius: float,

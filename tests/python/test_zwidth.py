@@ -278,6 +278,7 @@ def test_bad_input_is_refused(changes: dict[str, Any], message: str) -> None:
         zwidth(base, "direct", **changes)
 
 
+@pytest.mark.slow
 def test_the_figure_has_every_law_and_ceiling(found: ZWidth) -> None:
     figure = plot_zwidth(found)
     labels = [text.get_text() for text in figure.legends[0].get_texts()]
