@@ -212,7 +212,8 @@ void bind_running_class(py::module_& m) {
           py::arg("target"),
           "Set the target of a simulated hand [m]; NaN leaves an axis unchanged.")
       .def("changes", &changes_from, py::arg("start") = 0,
-           "Return the applied updates from number `start` on, and forget those before: (tick, serial "
+           "Return the applied updates from number `start` on, and forget those before: (tick, "
+           "serial "
            "number, parameter).")
       .def_property_readonly(
           "changes_lost", [](const Running& run) { return run.changes().lost(); },

@@ -62,6 +62,11 @@ class CoreLaw(Protocol):
         """Make the law for a device."""
         ...
 
+    @property
+    def timing(self) -> Timing:
+        """Sample time and delay it was designed for."""
+        ...
+
     def step(self, port: Port) -> float:
         """Return the force [N] for one tick of one axis."""
         ...

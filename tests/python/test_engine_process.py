@@ -284,5 +284,5 @@ def test_a_configured_engine_is_not_left_out_in_silence() -> None:
         pytest.raises(RuntimeError, match=r"start it by worlds\.EngineProcess"),
     ):
         device.start()
-    with pytest.raises(ConfigurationError, match=r"BridgeParams\.stale"):
+    with pytest.raises(ConfigurationError, match=r"engine\.stale"):
         Configuration.from_toml(text + "\n[engine]\nstale = 1e9\n")

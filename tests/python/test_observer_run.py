@@ -53,7 +53,7 @@ def test_a_table_turns_it_on_with_the_design_of_the_device() -> None:
     [
         ("[observer]\n", "line 1: observer: estimates the state from a measured force"),
         (f"{SENSOR}[observer]\nmas = 1.0\n", "line 4: observer.mas: no such name"),
-        (f"{SENSOR}[observer]\nmass = -1.0\n", "line 4: Observer.mass = -1 kg: must lie in"),
+        (f"{SENSOR}[observer]\nmass = -1.0\n", "line 4: observer.mass = -1 kg: must lie in"),
     ],
 )
 def test_what_cannot_be_is_refused_with_its_line(text: str, words: str) -> None:
