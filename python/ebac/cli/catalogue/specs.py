@@ -49,7 +49,7 @@ def specs(
 
     * `ebac presets reference > device.toml`, then `ebac specs --scenario device.toml`: the device of a file
 
-    * `ebac demo joystick`, then `ebac specs --scenario joystick.toml`: that of a configuration of `ebac run`
+    * `ebac demo joystick`, then `ebac specs --scenario joystick.toml`: that of the configuration of a run
 
     * `ebac specs --device joystick-3 --figure workspace.png`: three axes, and a figure of the workspace
     """

@@ -126,7 +126,8 @@ def gains(
 
     * `ebac identify gains press.csv --switch 1.0 --law tca-damped --out report`
 
-    * `ebac identify gains press.csv --switch 1.0 --scenario device.toml`: on your device, as described in a file
+    * `ebac presets reference > device.toml`, then `ebac identify gains press.csv --switch 1.0 --scenario device.toml`:
+    on your device, as described in a file
     """
     from ebac import Timing
     from ebac.identify import Limits, fit_gains, fit_loop
