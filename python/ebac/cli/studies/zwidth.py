@@ -12,6 +12,7 @@ import typer
 
 from ebac.cli import by_name, interrupts, options, output, setting
 from ebac.cli.files import ResultOptions
+from ebac.cli.studies import zwidth_vibration
 
 if TYPE_CHECKING:
     from ebac.laws import Variant
@@ -241,45 +242,12 @@ def _show(found: ZWidth) -> None:
             f"Energy and usable hold for {found.random_hands} as well; one that pulls harder than {PULL:g} N is not "
             "counted."
         )
-    _show_vibration(found)
+    zwidth_vibration.show(found)
     output.say(
         "Simulation. Wall stiffness, wall damping and delay vary as above; everything else:",
         style="bold",
     )
     output.indented(_shared(formatting.describe(found.base)).replace("; ", "\n"))
-
-
-def _show_vibration(found: ZWidth) -> None:
-    """Print how near each law is to the threshold of a quiet force, and how far the noise moves it."""
-    from ebac.studies.zwidth.result import SEEDS, STIFFNESSES
-
-    rows = iter(found.vibrations())
-    output.say("Vibration of the force, in detection thresholds; quiet is below 3.", style="bold")
-    heads = [f"{stiffness / 1e3:g} kN/m" for stiffness in STIFFNESSES]
-    grid = output.table(["delay", "law", *heads], numbers=range(2, 2 + len(heads)))
-    cells_of = {(row["law"], row["delay_samples"], row["stiffness_N_per_m"]): row for row in rows}
-    for number, delay in enumerate(found.delays):
-        if number:
-            grid.add_section()
-        for law in found.laws:
-            cells = (_range(cells_of[law, delay, stiffness]) for stiffness in STIFFNESSES)
-            grid.add_row(str(delay), law, *cells)
-    output.show(grid)
-    first, damping = found.base.seed, next(iter(cells_of.values()))["damping_Ns_per_m"]
-    output.say(
-        f"Least and largest of the seeds {first} to {first + SEEDS - 1}, of a press or a tap, whichever vibrates more, "
-        f"at a wall damping of {damping:g} N s/m. The areas above are those of seed {first}: --seed {first + 1} "
-        "searches again with other noise."
-    )
-
-
-def _range(row: dict[str, Any]) -> str:
-    """Return the least and the largest vibration over the seeds; one number where they are the same."""
-    ends = [row["perceived_least"], row["perceived_largest"]]
-    if None in ends:
-        return "ended early"
-    least, most = (f"{end:.3g}" for end in ends)
-    return least if least == most else f"{least} to {most}"
 
 
 def _shared(described: str) -> str:
