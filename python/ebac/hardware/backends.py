@@ -256,13 +256,13 @@ def sensor_of(
 
 
 def _records(period: float) -> float:
-    """Return how many records a simulated sensor sends [Hz], from the period of the device's own [s]."""
+    """Return the rate of a simulated sensor [Hz]: a record in every period of the device's own [s], 7000 at most."""
     from ebac._core import EmulatorOptions
 
     if period == 0:
         return EmulatorOptions().rate
-    fewest, most = 1.0, 7000.0
-    return min(most, max(fewest, 1 / period))
+    most = next(one.high for one in EmulatorOptions.fields() if one.name == "rate")
+    return min(most, 1 / period)
 
 
 def unheld(scenario: Scenario) -> Scenario:
