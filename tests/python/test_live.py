@@ -116,6 +116,20 @@ def test_an_aim_is_a_step_of_the_hand(in_javascript: Callable[..., Any]) -> None
     np.testing.assert_allclose(in_javascript(code), force, rtol=0, atol=1e-12)
 
 
+def test_a_curve_has_gaps_where_there_is_no_value(in_javascript: Callable[..., Any]) -> None:
+    code = """const drawn = [];
+    const [moveTo, lineTo] = ["move", "line"].map((what) => (...at) => drawn.push([what, ...at]));
+    const g = { beginPath() {}, stroke() {}, moveTo, lineTo };
+    const y = [null, 1, 2, null, null, 3, 4, 5, null].map((value) => value ?? NaN);
+    curve(g, y.map((_, k) => k), { y }, (t) => t, (value) => value);
+    return drawn;"""
+    drawn = in_javascript(code)
+    assert drawn == [
+        *(["move", 1, 1], ["line", 2, 2]),
+        *(["move", 5, 3], ["line", 6, 4], ["line", 7, 5]),
+    ]
+
+
 def test_what_the_core_refuses_is_an_error_and_leaves_a_run_as_it_was(
     in_javascript: Callable[..., Any],
 ) -> None:

@@ -107,32 +107,35 @@ function drawPanel(g, t, x, panel, top, high, width, theme) {
   legend(g, panel, top, width, theme);
 }
 
-/** Of the rows on one column of pixels the least and the most are drawn: no peak is lost. */
+/** Of the rows on one column of pixels the least and the most are drawn: no peak is lost. NaN leaves a gap. */
 function curve(g, t, line, x, y) {
   g.strokeStyle = line.colour;
   g.lineWidth = line.width ?? 1.5;
   g.beginPath();
-  let [column, low, high, last] = [NaN, 0, 0, 0];
+  let [column, low, high, last, gap] = [NaN, 0, 0, 0, true];
+  const to = (value) => {
+    if (gap) g.moveTo(column, y(value));
+    else g.lineTo(column, y(value));
+    gap = false;
+  };
   const flush = () => {
-    if (low !== high) {
-      g.lineTo(column, y(low));
-      g.lineTo(column, y(high));
-    }
-    g.lineTo(column, y(last));
+    if (!(column === column)) return;
+    if (low !== high) for (const value of [low, high]) to(value);
+    to(last);
   };
   for (let k = 0; k < t.length; ++k) {
     const value = line.y[k];
-    if (!(value === value)) continue;
-    const at = Math.round(x(t[k]) * 2) / 2;
+    const at = value === value ? Math.round(x(t[k]) * 2) / 2 : NaN;
     if (at !== column) {
-      if (column === column) flush();
+      flush();
+      gap ||= !(at === at);
       [column, low, high] = [at, value, value];
     }
     low = Math.min(low, value);
     high = Math.max(high, value);
     last = value;
   }
-  if (column === column) flush();
+  flush();
   g.stroke();
 }
 
