@@ -284,7 +284,7 @@ def test_the_paper_s_motor_in_raw_numbers() -> None:
     assert (numbers["max_torque"], numbers["max_current"]) == (4000, 4000)
     assert (numbers["mode"], numbers["desired_state"]) == (10, 30)
     assert numbers["sync_period"] == 1000
-    assert numbers["heartbeat_consumer"] == 127 << 16 | 300
+    assert numbers["heartbeat_consumer"] == 127 << 16 | 100
     assert numbers["emcy_cob_id"] == 0x83
     assert (numbers["rpdo1_cob_id"], numbers["tpdo1_cob_id"]) == (0x203, 0x183)
     assert (numbers["rpdo1_entry1"], numbers["rpdo1_entry2"]) == (0x60400010, 0x60710010)

@@ -268,13 +268,13 @@ def test_doctor_prints_how_long_each_drive_would_hold_its_torque(tmp_path: Path)
     for bare, found, verdict in (
         (
             False,
-            "fault, power off after 5 ms at worst (pdo.rpdo1.event 5 ms, heartbeat.consumer 300 ms); by then 42.4 N "
+            "fault, power off after 5 ms at worst (pdo.rpdo1.event 5 ms, heartbeat.consumer 100 ms); by then 42.4 N "
             "move a free handle of 0.25 kg by 2.1 mm",
             "good",
         ),
         (
             "heartbeat alone",
-            "fault, power off after 300 ms at worst (heartbeat.consumer 300 ms); by then 42.4 N have moved a free "
+            "fault, power off after 100 ms at worst (heartbeat.consumer 100 ms); by then 42.4 N have moved a free "
             "handle of 0.25 kg to the end of the workspace, after 26 ms",
             "fair",
         ),

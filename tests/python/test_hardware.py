@@ -286,6 +286,21 @@ def test_the_force_loop_is_closed_on_the_sensor(device: OpenDevice) -> None:
     assert (trace["ft.age"][:, 0] >= 0).all()
 
 
+def test_drives_do_not_miss_a_loop_that_has_ended(device: OpenDevice) -> None:
+    def seen() -> list[tuple[int, int]]:  # what each drive watches, and its errors
+        place = device.backend
+        with drives.DriveBus.open(interface=place.interface, channel=place.channel) as bus:
+            both = (bus.drive(node) for node in (1, 2))
+            return [(one.number("heartbeat_consumer"), one.number((0x1003, 0))) for one in both]
+
+    watching = seen()
+    assert all(consumer & 0xFFFF > 0 and errors == 0 for consumer, errors in watching)
+    for _ in range(2):
+        under_the_law(device.run(environment=ebac.Free(), seconds=0.1))
+        time.sleep(0.5)
+        assert seen() == watching  # and no heartbeat lost meanwhile
+
+
 def test_a_drive_that_holds_something_else_is_refused() -> None:
     known = configuration(interface="ebac", channel="joystick-test", setup="verify")
     with pytest.raises(drives.NotVerified, match="holds something else"):

@@ -131,7 +131,7 @@ def test_the_table_of_a_configuration(tmp_path: Path) -> None:
     text = EXAMPLE.read_text() + "\n[simulated.bus]\nresponse = 2e-4\nerror_rate = 0.01\n"
     bus = Configuration.from_toml(text).timed_bus()
     assert (bus.response, bus.error_rate, bus.bit_rate) == (2e-4, 0.01, 1e6)
-    assert (bus.torque_silence, bus.loop_silence, bus.drive_heartbeat) == (0.005, 0.3, 0.1)
+    assert (bus.torque_silence, bus.loop_silence, bus.drive_heartbeat) == (0.005, 0.1, 0.1)
     for wrong in ("error_rate = 2.0", "speed = 1", "bit_rate = 1e6"):
         with pytest.raises(ConfigurationError, match=r"(must lie in|simulated\.bus)"):
             Configuration.from_toml(EXAMPLE.read_text() + f"\n[simulated.bus]\n{wrong}\n")

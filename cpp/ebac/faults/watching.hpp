@@ -28,9 +28,9 @@ struct Watching {
 
 inline constexpr std::array<Watching, 3> kWatchings{{
     // copley-accelnet, copley-xenus
-    {.drives = {.drive_heartbeat = 100, .loop_silence = 300, .torque_silence = 5},
+    {.drives = {.drive_heartbeat = 100, .loop_silence = 100, .torque_silence = 5},
      .timeout = 0.3,
-     .beat = 0.03},
+     .beat = 0.01},
     // elmo-gold, maxon-epos4, trinamic-tmcm, generic-cia402
     {.drives = {.drive_heartbeat = 100, .loop_silence = 100}, .timeout = 0.3, .beat = 0.01},
     // copley-guarded

@@ -51,7 +51,7 @@ def check_stall(network: Network) -> None:
             held = "for ever" if worst == inf else f"for {worst:g} s"
             raise ProfileError(
                 f"{who} would hold its last torque {held} when the loop stalls or dies: must be at most {LONGEST:g} s; "
-                "give pdo.rpdo1.event = 0.005 (s without a torque) or heartbeat.consumer = 0.3 (s without the loop's "
+                "give pdo.rpdo1.event = 0.005 (s without a torque) or heartbeat.consumer = 0.1 (s without the loop's "
                 "heartbeat), best both"
             )
         if "limits.max_torque" not in values:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
@@ -14,26 +14,40 @@ from ebac.drives.who_answers import naming_who_answers
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from ebac.drives import Drive
+    from ebac.drives import Drive, Profile
     from ebac.hardware.backends import Backend
     from ebac.hardware.configuration import Configuration
 
 #: The shortest period of SYNC written to a simulated drive [s]. It takes the silence of twenty for a broken bus, and an
 #: ordinary kernel under load, or in a virtual machine, pauses a loop for 20 ms now and then.
 _SHORTEST = 10e-3
+_SIGNS_OF_LIFE = ("heartbeat.consumer", "heartbeat.guard")
+#: What makes a drive watch the loop's heartbeat, or its requests (node guarding); 0 where it does not (CiA 301).
+_WATCHES = ("heartbeat_consumer", "life_time_factor")
 #: Periods of SYNC that a simulated drive may miss, and torques that any drive may.
 _SYNCS, _MISSED = 20, 5
 
 
 def nodes_of(configuration: Configuration, *, simulate: bool) -> tuple[Node, ...]:
-    """Return the drives, their SYNC period that of the loop, no deadline of a torque shorter than five of its ticks."""
+    """Return the drives, their SYNC period that of the loop, no deadline of a torque shorter than five of its ticks.
+
+    Simulated drives wait as long as that for a heartbeat or request, too.
+    """
     dt = configuration.timing.dt
     if simulate:
         dt = max(dt, _SHORTEST)
     longest = _SYNCS * dt if simulate else _MISSED * dt
+
+    def of_the_loop(profile: Profile) -> Profile:
+        watched = ((key, float(profile.values.get(key, 0))) for key in _SIGNS_OF_LIFE)
+        short = {key: longest for key, seconds in watched if simulate and 0 < seconds < longest}
+        changes = {"sync.period": dt, **short}
+        return profile.with_deadline(longest).replace(
+            **{key.replace(".", "__"): value for key, value in changes.items()}
+        )
+
     return tuple(
-        replace(node, profile=node.profile.with_deadline(longest).replace(sync__period=dt))
-        for node in configuration.drives.nodes
+        replace(node, profile=of_the_loop(node.profile)) for node in configuration.drives.nodes
     )
 
 
@@ -95,6 +109,7 @@ def start(
     with drives_at(backend, nodes) as drives:
         for drive, node in zip(drives, nodes, strict=True):
             _rest(drive)
+            _begin_watch_anew(drive)
             drive.zero_torque()
             verify(drive, node)
         drives[0].bus.check_alone([node.id for node in nodes])
@@ -109,8 +124,19 @@ def _rest(drive: Drive) -> None:
         raise drive.fault("being set up")
 
 
+def _begin_watch_anew(drive: Drive) -> None:
+    """Let a drive without power watch the loop only from its next heartbeat or request on (CiA 301).
+
+    A loop that has ended is silent. Its drive would report that as an error, and end a run that begins just then.
+    """
+    for name in _WATCHES:
+        if held := drive.look(name):
+            drive.write(name, 0)
+            drive.write(name, int(held))
+
+
 def power_off(backend: Backend, nodes: Sequence[Node]) -> list[str]:
-    """See that no drive has power, asked one by one; return the state of each.
+    """See that no drive has power, asked one by one, nor misses the loop; return the state of each.
 
     Raises
     ------
@@ -125,6 +151,11 @@ def power_off(backend: Backend, nodes: Sequence[Node]) -> list[str]:
                 states.append(drive.disable().value)
             except DriveError as error:
                 failed.append(error)
+        for drive in drives:
+            with suppress(
+                DriveError
+            ):  # it has no power; the next start does so again, and reads it back
+                _begin_watch_anew(drive)
     if failed:
         for other in failed[1:]:
             failed[0].add_note(str(other))
