@@ -1,9 +1,12 @@
 """Compile the core to WebAssembly: `python bindings/wasm/build.py [OUT]`.
 
 Needs the `ziglang` wheel, a C++ compiler with the libraries of wasm32-wasi, and Eigen's headers: in a clone
-`pip install '.[wasm]'`. Without OUT the module goes where the installed package looks for it.
+`pip install '.[wasm]'`. EBAC_WASM_CXX may name another such compiler: ziglang's compiles its libraries first, which takes
+three times as long as the module. Without OUT the module goes where the installed package looks for it.
 """
 
+import os
+import shlex
 import subprocess
 import sys
 import tempfile
@@ -54,9 +57,16 @@ def eigen() -> Path:
     raise SystemExit("Eigen's headers are missing: pip install cmeel-eigen")
 
 
+def compiler() -> list[str]:
+    """Return the command of the compiler, empty where there is none."""
+    if named := os.environ.get("EBAC_WASM_CXX"):
+        return shlex.split(named)
+    return [sys.executable, "-m", "ziglang", "c++"] if find_spec("ziglang") else []
+
+
 def build(out: Path) -> None:
     """Compile the module to `out`."""
-    if find_spec("ziglang") is None:
+    if not compiler():
         raise SystemExit("ziglang, which compiles to WebAssembly, is missing: pip install ziglang")
     out.parent.mkdir(parents=True, exist_ok=True)
     with tempfile.TemporaryDirectory() as room:
@@ -68,7 +78,7 @@ def build(out: Path) -> None:
         unit.write_text("".join(f'#include "{file}"\n' for file in files), encoding="utf-8")
         made = Path(room, "ebac.wasm")
         subprocess.run(
-            [sys.executable, "-m", "ziglang", "c++", *FLAGS, f"-I{CPP}", f"-I{HERE}", "-isystem", str(eigen()),
+            [*compiler(), *FLAGS, f"-I{CPP}", f"-I{HERE}", "-isystem", str(eigen()),
              str(unit), str(HERE / "throw.cpp"), "-o", str(made)],
             check=True,
         )  # fmt: skip

@@ -21,7 +21,7 @@ def write(app: Sphinx) -> None:
     assert found.loader is not None
     wasm = importlib.util.module_from_spec(found)
     found.loader.exec_module(wasm)
-    if importlib.util.find_spec("ziglang") is None:
+    if not wasm.compiler():
         LOGGER.info("no live page: ziglang is missing")
         return
     module = wasm.built(ROOT / "build" / "wasm" / "ebac.wasm")

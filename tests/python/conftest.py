@@ -77,6 +77,19 @@ def pytest_xdist_auto_num_workers() -> int | None:
     return 1 + (len(affinity(0)) if affinity else os.cpu_count() or 1)
 
 
+@pytest.hookimpl(tryfirst=True)
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Make slow tests weekly but for the first and the last of their sets of parameters, unless `slow(every=True)`."""
+    sets: dict[tuple[Path, str], list[pytest.Item]] = {}
+    for item in items:
+        slow = item.get_closest_marker("slow")
+        if slow and isinstance(item, pytest.Function) and not slow.kwargs.get("every"):
+            sets.setdefault((item.path, item.originalname), []).append(item)
+    for same in sets.values():
+        for item in same[1:-1]:
+            item.add_marker(pytest.mark.weekly)
+
+
 def pytest_collection_finish() -> None:
     """Keep what was imported out of garbage collections: they took a tenth of the time and freed none of it."""
     gc.collect()
@@ -287,7 +300,7 @@ def browser() -> Iterator[Any]:
 
 @pytest.fixture(scope="session")
 def wasm() -> bytes:
-    """The module of these sources: made before, by the build of the site, or now where ziglang is."""
+    """The module of these sources: made before, by the build of the site, or now where a compiler is."""
     root = Path(__file__).parents[2]
     found = importlib.util.spec_from_file_location("build", root / "bindings" / "wasm" / "build.py")
     assert found is not None
@@ -295,7 +308,7 @@ def wasm() -> bytes:
     build: Any = importlib.util.module_from_spec(found)
     found.loader.exec_module(build)
     place = root / "build" / "wasm" / "ebac.wasm"
-    if not build.fresh(place) and importlib.util.find_spec("ziglang") is None:
+    if not build.fresh(place) and not build.compiler():
         pytest.skip("no ziglang to compile the core to WebAssembly")
     made: bytes = build.built(place).read_bytes()
     return made
