@@ -31,16 +31,17 @@ _SYNCS, _MISSED = 20, 5
 def nodes_of(configuration: Configuration, *, simulate: bool) -> tuple[Node, ...]:
     """Return the drives, their SYNC period that of the loop, no deadline of a torque shorter than five of its ticks.
 
-    Simulated drives wait as long as that for a heartbeat or request, too.
+    Simulated drives wait at least 0.2 s for a heartbeat or request, too.
     """
     dt = configuration.timing.dt
     if simulate:
         dt = max(dt, _SHORTEST)
     longest = _SYNCS * dt if simulate else _MISSED * dt
+    patience = _SYNCS * _SHORTEST
 
     def of_the_loop(profile: Profile) -> Profile:
         watched = ((key, float(profile.values.get(key, 0))) for key in _SIGNS_OF_LIFE)
-        short = {key: longest for key, seconds in watched if simulate and 0 < seconds < longest}
+        short = {key: patience for key, seconds in watched if simulate and 0 < seconds < patience}
         changes = {"sync.period": dt, **short}
         return profile.with_deadline(longest).replace(
             **{key.replace(".", "__"): value for key, value in changes.items()}
