@@ -154,6 +154,7 @@ def test_what_cannot_be_taken_apart_is_refused() -> None:
 
 
 @pytest.mark.slow
+@pytest.mark.weekly
 def test_a_row_for_the_law_each_piece_and_each_law_beside(few: Ablation) -> None:
     labels = [row.label for row in few.rows]
     expected = [piece.label for piece in pieces("ebac", ENCODER)]
@@ -164,6 +165,7 @@ def test_a_row_for_the_law_each_piece_and_each_law_beside(few: Ablation) -> None
     assert few.rows[0].earns is None
 
 
+@pytest.mark.slow
 def test_a_measure_is_what_a_study_says(few: Ablation) -> None:
     named = {(row.law, row.condition): row for row in few.study.rows}
     for row in (few.rows[0], few.rows[-1]):

@@ -43,6 +43,7 @@ def test_what_is_missing_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
     assert "needs mujoco: pip install 'ebac[peers]'" in " ".join(result.output.split())
 
 
+@pytest.mark.slow
 def test_the_comparison(monkeypatch: pytest.MonkeyPatch) -> None:
     pytest.importorskip("mujoco")
     pytest.importorskip("scipy")

@@ -130,6 +130,7 @@ def drawn(trace: Trace) -> float:
     return float((np.maximum.accumulate(energy) - energy).max())
 
 
+@pytest.mark.slow
 def test_every_change_is_told_however_many_there_are() -> None:
     told = []
 

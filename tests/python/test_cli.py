@@ -167,6 +167,7 @@ def test_wall_numbers_are_those_of_the_library() -> None:
     )
 
 
+@pytest.mark.slow
 def test_wall_writes_table_figure_logs_and_scenario(tmp_path: Path) -> None:
     text = ebac_command("wall", "--seconds", "1").stdout
     names = {"wall.json", "wall.png", "scenario.toml"}

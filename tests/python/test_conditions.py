@@ -101,6 +101,7 @@ def test_a_study_runs_under_a_condition_that_is_written_out(tmp_path: Path) -> N
     assert '"condition": "d2K15"' in done.stdout
 
 
+@pytest.mark.slow
 def test_a_note_says_what_a_condition_replaces_of_a_scenario(tmp_path: Path) -> None:
     file, hands = tmp_path / "mine.toml", tmp_path / "hands.csv"
     hands.write_text("m_kg,b_Ns_per_m,k_N_per_m,target_m\n0.15,6,300,0.04\n")

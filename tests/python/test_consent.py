@@ -137,6 +137,7 @@ def test_no_drive_of_the_slave_has_power_before_both_pairs_are_confirmed(tmp_pat
 
 @LINUX
 @pytest.mark.slow
+@pytest.mark.weekly
 @pytest.mark.real_time
 def test_what_a_waiting_master_asks_is_not_made_up_for(tmp_path: Path) -> None:
     """The lever is out before the slave starts: insertion begins with the lever's speed, not with a run."""

@@ -414,6 +414,7 @@ class Rules:
 
 @settings(max_examples=12, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(first=profiles(), second=profiles(), strict=st.booleans())
+@pytest.mark.slow
 def test_two_profiles_in_a_row_are_undone(
     first: drives.Profile, second: drives.Profile, strict: bool, open_bus: Open, tmp_path: Path
 ) -> None:

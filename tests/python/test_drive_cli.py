@@ -399,6 +399,7 @@ def test_a_bus_that_does_not_open_leaves_one_message(
     assert "shut down" not in caplog.text
 
 
+@pytest.mark.slow
 @pytest.mark.real_time  # multicast drops frames that nobody takes in time
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
 def test_drives_in_another_process_are_set_up_and_end_by_a_signal(

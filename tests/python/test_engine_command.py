@@ -138,6 +138,7 @@ def test_the_world_of_a_program_is_felt_and_the_program_is_ended(room: Path) -> 
     assert "# the engine of this run:" in about.files["configuration.toml"]
 
 
+@pytest.mark.slow
 def test_one_that_is_killed_in_contact_fades_and_the_run_goes_on_and_says_so(room: Path) -> None:
     done = here(room, words(written(room, MORTAL), seconds=2.5))
     assert done.exit_code == 1, done.stderr
@@ -150,6 +151,7 @@ def test_one_that_is_killed_in_contact_fades_and_the_run_goes_on_and_says_so(roo
     assert not left()
 
 
+@pytest.mark.slow
 def test_one_that_never_posts_is_told(room: Path) -> None:
     done = here(room, words(written(room, SILENT)))
     assert done.exit_code == 1, done.stderr
@@ -197,6 +199,7 @@ def test_what_cannot_be_is_refused(
     assert not (room / "out").exists()
 
 
+@pytest.mark.slow
 def test_a_configured_engine_is_started_and_has_no_virtual_clock(room: Path) -> None:
     file = room / "joystick.toml"
     engine = f'[engine]\ncommand = "{sys.executable} engine.py"\n'

@@ -253,6 +253,7 @@ def test_a_number_out_of_range_is_refused_where_it_is_posted() -> None:
     assert channel.posted == 0
 
 
+@pytest.mark.slow
 @pytest.mark.real_time
 def test_a_loop_on_simulated_drives_takes_an_engine_in_a_process(
     engine: Callable[..., list[str]],

@@ -190,6 +190,7 @@ def test_the_same_seed_gives_the_same_bits() -> None:
 )
 @settings(max_examples=25, deadline=None)
 @pytest.mark.slow
+@pytest.mark.weekly
 def test_a_bridge_gives_no_more_than_it_counts(
     seed: int, rate: float, jitter: float, blend: float, slew: float
 ) -> None:

@@ -111,6 +111,7 @@ def test_a_wrong_axis_and_an_empty_trace_are_told(minute: ebac.Trace) -> None:
         minute[:0.0].explore()
 
 
+@pytest.mark.slow
 def test_the_page_stands_alone(minute: ebac.Trace, tmp_path: Path) -> None:
     page = tmp_path / "run.html"
     minute[:5].explore("x").save(page)
@@ -144,6 +145,7 @@ SHOWN = """() => {
 
 
 @pytest.mark.slow
+@pytest.mark.weekly
 def test_in_a_browser_a_zoom_draws_the_window_anew_and_keeps_its_peaks(
     browser: Any, minute: ebac.Trace, tmp_path: Path
 ) -> None:

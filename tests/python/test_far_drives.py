@@ -188,6 +188,7 @@ def at_rest(side: SideReport, count: int) -> bool:
 
 @LINUX
 @pytest.mark.slow
+@pytest.mark.weekly
 @pytest.mark.real_time
 def test_what_is_felt_is_what_the_model_meets(tmp_path: Path) -> None:
     """A bend held against the wall: the load that came over two buses and a network is that of the model alone."""
@@ -241,6 +242,7 @@ def test_a_cut_link_is_held_faded_told_and_resumed(tmp_path: Path) -> None:
 
 @LINUX
 @pytest.mark.slow
+@pytest.mark.weekly
 @pytest.mark.real_time
 def test_a_link_that_stays_away_ends_both_with_drives_at_rest(tmp_path: Path) -> None:
     pair = Pair(tmp_path, seconds=60.0)

@@ -13,6 +13,7 @@ KINDS = len(faults.kinds())
 CASES = KINDS * 20
 
 
+@pytest.mark.slow
 def test_every_case_passes_and_every_kind_is_there() -> None:
     found = faults.run_campaign(CASES, seed=11)
     assert found.passed == CASES, [row.row() for row in found.rows if row.failures]
@@ -53,6 +54,7 @@ def test_a_case_tells_its_story(kind: str) -> None:
         assert (np.diff((trace["fault"] != 0).astype(int)) >= 0).all(), "it latches"
 
 
+@pytest.mark.slow
 def test_every_fault_of_the_table_can_be_made() -> None:
     """But for a device that is another; nor does any injected fault starve the law's account (test_ledger.py)."""
     seen = {int(faults.run_case(i, seed=4).trace["fault"].max()) for i in range(KINDS * 10)}
@@ -82,6 +84,7 @@ def test_the_command_prints_its_document() -> None:
     assert {*keys, "failures", "reasons", "first_failure", "first_breach"} == set(found["rows"][0])
 
 
+@pytest.mark.slow
 def test_the_command_draws_the_cases_a_person_wants_to_see(tmp_path) -> None:  # type: ignore[no-untyped-def]
     out = tmp_path / "campaign"
     ran = CliRunner().invoke(app, ["faults", "--cases", str(KINDS), "--out", str(out)])

@@ -106,6 +106,7 @@ def test_walls_name_the_laws_of_the_observer_and_the_peak_force(
     assert "observer" not in plot_walls([run("tca")]).get_suptitle()
 
 
+@pytest.mark.slow
 def test_a_run_fits_any_column(run: Run) -> None:
     figure = plot_trace(run("ebac", seconds=1.0))
     assert "law ebac, simulated" in figure.get_suptitle()
@@ -132,6 +133,7 @@ def test_beta_has_its_panel_in_walls(run: Run) -> None:
     assert not any("beta" in ax.get_ylabel() for ax in none.axes)
 
 
+@pytest.mark.slow
 def test_a_world_has_a_legend(run: Run) -> None:
     world = ebac.worlds.preset("sphere")
     traces = [run(law, environment=world, seconds=0.5) for law in ("tca", "ebac")]
@@ -146,6 +148,7 @@ def test_a_world_has_a_legend(run: Run) -> None:
         check_inside(figure)
 
 
+@pytest.mark.slow
 def test_a_short_path_in_a_world_is_shown_from_close_by(run: Run) -> None:
     world = ebac.worlds.preset("sphere")
     trace = run("ebac", environment=world, seconds=0.5)
@@ -222,6 +225,7 @@ def test_widths_on_paper(width: str | float, inches: float, run: Run, tmp_path: 
         assert image.width / 300 == pytest.approx(inches, abs=0.01)
 
 
+@pytest.mark.slow
 def test_saving_leaves_the_figure_as_it_was(run: Run, tmp_path: Path) -> None:
     def state() -> list[object]:
         figure.draw_without_rendering()
@@ -345,6 +349,7 @@ def test_what_lies_in_the_grey_area_is_exact_and_still_and_not_always_good() -> 
     assert said[2] == "exact and still, force not quiet"
 
 
+@pytest.mark.slow
 def test_the_hands_of_one_law_have_a_title_of_few_lines() -> None:
     found = study(Operators.grid()[:1], ["tca"], ["d1K10"], base=ebac.Scenario(seconds=0.5))
     figure = dict(plot_study(found))["hands"]
@@ -372,6 +377,7 @@ def test_a_study_of_several_conditions_names_what_they_share_and_explains_each()
 
 
 @pytest.mark.slow
+@pytest.mark.weekly
 def test_every_study_has_a_title_that_says_simulated() -> None:
     few = Operators.sample(3, seed=1)
     base = ebac.Scenario(seconds=1.0)

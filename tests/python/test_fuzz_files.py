@@ -379,6 +379,7 @@ def mended(log: Log) -> None:
         assert len(new.trace) == len(log.trace)
 
 
+@pytest.mark.slow
 def test_damaged_logs_are_read_or_refused() -> None:
     for size in BOMBS:
         _bombs(size)

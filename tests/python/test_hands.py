@@ -260,6 +260,7 @@ def test_a_study_shows_power_at_rest_of_long_holds_alone() -> None:
         assert (row.least_rest_power_W is not None) == there, row
 
 
+@pytest.mark.slow
 def test_ebac_holds_under_every_model() -> None:
     few = ebac.Operators.grid(mass=[0.05, 1.0], damping=[6], stiffness=[100, 1000], target=[0.02])
     rows = ebac.study(few, "ebac", ["hands"]).rows
@@ -314,6 +315,7 @@ def test_damped_walls_are_as_good_as_without_a_law(hands: ebac.Operators) -> Non
         assert (ours.good or 0) >= ours.hands - 1, ours
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("hands", MANY)
 def test_a_wall_held_for_ten_minutes_leaks_little(hands: ebac.Operators) -> None:
     """Measured on 60 hands: -0.58 mJ and -8.7 uW; on the light hand of `hold-10min` 0 mJ and -5.1 uW."""
@@ -327,6 +329,7 @@ def test_a_wall_held_for_ten_minutes_leaks_little(hands: ebac.Operators) -> None
         assert row.least_rest_power_W >= -15e-6, row
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("hands", MANY)
 def test_stiff_walls_are_held_for_two_minutes(hands: ebac.Operators) -> None:
     """Measured on 60 hands: 0 mJ, and -9.7 uW at 35 kN/m; with two samples of delay that wall is not held by all."""
@@ -339,6 +342,7 @@ def test_stiff_walls_are_held_for_two_minutes(hands: ebac.Operators) -> None:
         assert row.least_rest_power_W >= -15e-6, row
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "hands",
     [

@@ -62,6 +62,7 @@ def states(place: object) -> list[drives.State]:
         return [bus.drive(node).state for node in (1, 2)]
 
 
+@pytest.mark.slow
 def test_a_run_is_rows_a_log_and_drives_without_power(device: OpenDevice, tmp_path: Path) -> None:
     trace = device.run("ebac", seconds=1, log=tmp_path / "run.mcap")
     part = under_the_law(trace)
@@ -224,6 +225,7 @@ def test_signals_are_python_s_again_afterwards() -> None:
     assert [signal.getsignal(number) for number in (signal.SIGINT, signal.SIGTERM)] == before
 
 
+@pytest.mark.slow
 def test_a_device_that_is_forgotten_stops(tmp_path: Path, until: Until) -> None:
     opened = ebac.Device.open(configuration(), simulate=True)
     run = opened.start(seconds=60, log=tmp_path / "run.mcap")
@@ -237,6 +239,7 @@ def test_a_device_that_is_forgotten_stops(tmp_path: Path, until: Until) -> None:
 
 
 @pytest.mark.slow
+@pytest.mark.weekly
 def test_long_runs_keep_the_last_rows_in_memory_and_all_on_disk(tmp_path: Path) -> None:
     known = configuration(memory=1.0)
     with ebac.Device.open(known, simulate=True) as device:

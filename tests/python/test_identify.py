@@ -319,6 +319,7 @@ def test_the_encoder_step_is_found(count: float, seed: int) -> None:
 # --- command line ---
 
 
+@pytest.mark.slow
 def test_the_command_writes_a_report_and_json(tmp_path: Path, trace: ebac.Trace) -> None:
     trace.to_npz(tmp_path / "log.npz")
     out = tmp_path / "report"

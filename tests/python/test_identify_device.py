@@ -225,6 +225,7 @@ def test_bad_wishes_of_a_check_are_refused() -> None:
         check(0)
 
 
+@pytest.mark.slow
 def test_the_command_writes_a_report_and_json(tmp_path: Path, trace: ebac.Trace) -> None:
     trace.to_npz(tmp_path / "log.npz")
     out = tmp_path / "report"

@@ -21,6 +21,7 @@ def log(number: int) -> tuple[Recording, identify.Target, dict[str, float]]:
     return recording, identify.Target.of(case.scenario.hand, recording.t), case.truth()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("number", [23, 26])
 def test_a_position_behind_a_filter_gets_a_remark(number: int) -> None:
     recording, target, truth = log(number)

@@ -96,6 +96,7 @@ def test_every_start_ends_at_the_same_place(trace: ebac.Trace) -> None:
         assert abs(once[name].value - often[name].value) < 0.05 * half
 
 
+@pytest.mark.slow
 def test_outliers_count_less_with_a_robust_loss(trace: ebac.Trace) -> None:
     r = Recording.from_trace(trace)
     x = r.x.copy()
@@ -134,6 +135,7 @@ def test_profile_and_local_intervals_agree(trace: ebac.Trace) -> None:
     assert abs(centre - e.value) < half
 
 
+@pytest.mark.slow
 def test_a_delay_of_the_force_is_found_and_costs_damping_if_ignored() -> None:
     trace = ebac.simulate(tracked(), "ebac")
     r = Recording.from_trace(trace)
@@ -282,6 +284,7 @@ def shaken(sign: float = 1.0) -> tuple[np.ndarray, np.ndarray]:
     return x, sign * force
 
 
+@pytest.mark.slow
 def test_a_force_of_the_other_sign_is_named_and_never_turned_silently() -> None:
     log = resting(*shaken(-1.0))
     wrong = fit_arm(log)
@@ -299,6 +302,7 @@ def test_a_force_of_the_other_sign_is_named_and_never_turned_silently() -> None:
     assert not check_log(log.flipped()).other_sign
 
 
+@pytest.mark.slow
 def test_the_command_turns_the_force_when_asked(tmp_path: Path) -> None:
     x, force = shaken(-1.0)
     rows = np.array([1e-3 * np.arange(len(x)), x, force]).T
@@ -311,6 +315,7 @@ def test_the_command_turns_the_force_when_asked(tmp_path: Path) -> None:
     assert "held in one place, an assumption" in " ".join(run.stdout.split())
 
 
+@pytest.mark.slow
 def test_the_target_is_read_from_the_scenario_in_the_log(tmp_path: Path) -> None:
     path = ebac.Tapping(target=0.025, rest=-0.01, frequency=1.5)
     hand = ebac.Hand(mass=0.3, damping=7, stiffness=400, path=path)

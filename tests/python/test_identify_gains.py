@@ -64,6 +64,7 @@ def test_the_loop_is_that_of_the_log(loop) -> None:
     assert loop.scenario.hand.mass == pytest.approx(0.2, rel=0.02)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("file", ["log.csv", "log.npz", "late.mcap"])
 def test_the_wall_of_an_observed_loop_is_where_it_was_met(trace, file: str, tmp_path) -> None:
     """The observer asks the world ahead of the reading: against x the wall would be 7 % too soft."""
@@ -77,6 +78,7 @@ def test_the_wall_of_an_observed_loop_is_where_it_was_met(trace, file: str, tmp_
     assert loop.wall.stiffness == pytest.approx(3e3, rel=0.02)
 
 
+@pytest.mark.slow
 def test_the_choice_keeps_all_and_costs_less(chosen) -> None:
     assert chosen.chosen.broken == ()
     assert chosen.chosen.cost < 0.8  # of the default, which shakes
@@ -101,6 +103,7 @@ def test_nothing_of_a_sound_default_is_given_back(loop, law: str) -> None:
     assert set(found.default.ratios.values()) == {1.0}
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("few_looks")
 def test_a_default_that_breaks_a_constraint_is_turned_down(loop) -> None:
     """The choice costs no more than what is left of it."""
@@ -186,6 +189,7 @@ def test_a_hand_that_is_not_told_has_no_gains() -> None:
         fit_gains(loop)
 
 
+@pytest.mark.slow
 def test_a_force_of_the_other_sign_is_named() -> None:
     log = Recording.from_trace(ebac.datasets.press()).flipped()
     loop = fit_loop(log, Target.steps(1.0))
@@ -316,6 +320,7 @@ def test_equal_is_what_noise_changes_and_never_is_never() -> None:
     assert compare(chosen, default, scatter, 1e-3) == {"better": 2, "equal": 3, "worse": 2}
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("few_looks")
 def test_the_command_writes_a_report_and_json(
     tmp_path: Path, trace: ebac.Trace, monkeypatch: pytest.MonkeyPatch
@@ -336,6 +341,7 @@ def test_the_command_writes_a_report_and_json(
     assert (out / "gains.png").stat().st_size > 10_000
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("few_looks")
 def test_the_command_takes_device_wall_and_delay_of_a_file(
     tmp_path: Path, trace: ebac.Trace, monkeypatch: pytest.MonkeyPatch
@@ -374,6 +380,7 @@ def test_the_command_takes_device_wall_and_delay_of_a_file(
     assert "environment is a Free: gains are chosen at a wall" in " ".join(refused.output.split())
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("few_looks")
 def test_the_command_prints_what_it_guessed_of_the_log(
     tmp_path: Path, trace: ebac.Trace, monkeypatch: pytest.MonkeyPatch
@@ -402,6 +409,7 @@ def test_the_command_refuses_a_law_without_force_loop(tmp_path: Path, trace: eba
     assert "has no force loop" in " ".join(run.stderr.split())
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("few_looks")
 def test_the_check_shows_units_and_gives_plain_numbers(monkeypatch: pytest.MonkeyPatch) -> None:
     cases = check_gains(1, seed=4, evaluations=3)

@@ -73,6 +73,7 @@ def test_a_position_ten_rows_late_is_named(pushed: Recording) -> None:
     assert "The position seems to be 10 ms late" in result.misses[0]
 
 
+@pytest.mark.slow
 def test_a_filter_is_told_from_a_delay(pushed: Recording) -> None:
     recording = replace(pushed, force=filtered(force_of(pushed), 2e-3))
     result = identify.fit_arm(recording)
@@ -106,6 +107,7 @@ def test_a_delay_is_searched_over_whole_ticks(pushed: Recording) -> None:
 
 
 @pytest.mark.slow
+@pytest.mark.weekly
 def test_the_wrong_sign_of_a_moving_target_is_named(tmp_path: Path) -> None:
     write("tapping", tmp_path)
     log = ["identify", "arm", str(tmp_path / "tapping.mcap")]

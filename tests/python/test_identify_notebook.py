@@ -1,9 +1,12 @@
 """An identified arm shows itself in a notebook: its estimates with units and intervals, and the fit."""
 
+import pytest
+
 import ebac
 from ebac import identify
 
 
+@pytest.mark.slow
 def test_an_arm_shows_its_estimates_and_its_fit() -> None:
     hand = ebac.Hand(mass=0.35, damping=6.0, stiffness=300.0, path=[ebac.Tapping(frequency=0.8)])
     trace = ebac.simulate(ebac.Scenario(hand=hand, seconds=4), "ebac")

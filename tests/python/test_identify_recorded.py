@@ -30,6 +30,7 @@ def fit(log: RecordedArm, folder: Path) -> ArmResult:
     return identify.fit_arm(*read(log, folder))
 
 
+@pytest.mark.slow
 def test_jitter_does_not_make_a_log_that_contains_nothing_informative(tmp_path: Path) -> None:
     """All three were said to be determined to 1 %, half of what is true: only their ratios were."""
     result = fit(recorded(67, level="rough", task="path"), tmp_path)
@@ -59,6 +60,7 @@ def test_the_verdict_on_a_log_before_a_fit_is_that_of_the_fit(
     assert [check.determines(name) for name in sorted(HAND)] == [informative] * 3
 
 
+@pytest.mark.slow
 def test_a_mass_beyond_the_bound_of_the_search_is_no_result(tmp_path: Path) -> None:
     """At the bound, however narrow its interval."""
     log = recorded(0, level="clean", task="multisine")

@@ -151,6 +151,7 @@ def test_noise_does_not_undo_what_a_log_shows(tmp_path: Path) -> None:
         assert abs(found[name].value / true - 1) < 0.05
 
 
+@pytest.mark.slow
 def test_a_log_with_pauses_is_tried_with_the_other_sign(tmp_path: Path) -> None:
     log = recorded(0, level="rough", task="multisine")
     r = load(written(tmp_path, t=log.t, x=log.x, force=-log.force))
@@ -248,6 +249,7 @@ def test_a_hand_at_the_bound_of_the_search_is_not_determined(tmp_path: Path) -> 
     assert found["M0"].value == pytest.approx(8.0, rel=0.01)
 
 
+@pytest.mark.slow
 def test_a_hand_that_explains_less_than_none_is_an_error(tmp_path: Path) -> None:
     t, x, force = shaken(2.0)
     path = written(tmp_path, t=t, x=x, force=-force)

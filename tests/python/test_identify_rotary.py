@@ -97,6 +97,7 @@ def test_a_knob_comes_back_in_units_of_a_joint(
     assert "% of the torque" in repr(found)
 
 
+@pytest.mark.slow
 def test_the_command_shows_and_writes_units_of_a_joint(
     knob: dict[str, np.ndarray], tmp_path: Path
 ) -> None:

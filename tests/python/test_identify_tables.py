@@ -34,6 +34,7 @@ def test_profile_is_a_column_only_where_it_was_asked_for() -> None:
     assert "profile" in shown("arm", "arm.csv", "--profile")
 
 
+@pytest.mark.slow
 def test_levels_of_a_target_are_explained_where_they_occur() -> None:
     assert "X0/1, X0/2: where the hand wants to be" in shown("arm", "tapping.mcap")
     assert "X0/1" not in shown("arm", "arm.csv")

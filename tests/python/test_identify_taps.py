@@ -69,6 +69,7 @@ def test_a_metronome_that_is_right_gets_no_advice(tmp_path: Path) -> None:
 
 
 @pytest.mark.slow
+@pytest.mark.weekly
 def test_a_wrong_target_is_not_taken_for_a_wrong_sign(tmp_path: Path) -> None:
     """With one switch of twelve the fit had no stiffness, which was said to be the device, by the other sign."""
     write("tapping", tmp_path)

@@ -16,6 +16,7 @@ def arm(tmp_path_factory: pytest.TempPathFactory) -> Recording:
     return identify.load(write("arm", tmp_path_factory.mktemp("arm")))
 
 
+@pytest.mark.slow
 def test_a_force_in_kgf_and_a_motor_of_the_other_sign_are_named(arm: Recording) -> None:
     assert identify.fit_arm(arm).misses == ()
     assert arm.force is not None

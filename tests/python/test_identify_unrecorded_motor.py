@@ -49,6 +49,7 @@ HANDS = (
 
 
 @pytest.mark.slow
+@pytest.mark.weekly
 def test_without_the_motor_the_intervals_hold_the_truth() -> None:
     apart = []
     for seed, mass, damping, stiffness, lag, handle in HANDS:
@@ -114,6 +115,7 @@ def test_the_command_prints_the_note(tmp_path: Path) -> None:
     assert "The log has no motor force." in (tmp_path / "report" / "arm.html").read_text("utf-8")
 
 
+@pytest.mark.slow
 def test_delays_of_several_recordings_correct_a_shared_hand_once() -> None:
     recordings = [replace(pushed(seed, 0.35, 6.0, 300.0, 0.0), motor=None) for seed in (1, 2, 3)]
     one = identify.fit_arm(recordings)

@@ -28,6 +28,7 @@ def on_lever(
     )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("lever", LEVERS)
 @given(
     gravity=st.floats(-9.81, 9.81),
@@ -91,6 +92,7 @@ def test_a_gimbal_that_leans_far_out_has_a_rest_too(target: float) -> None:
     assert ebac.ideal_rest(scenario.replace(environment=ebac.Wall(stiffness=100.0, position=0.02)))
 
 
+@pytest.mark.slow
 def test_a_study_judges_the_hands_on_the_papers_joystick() -> None:
     """It once said that every hand is good where tca gave out 13.8 J and `good` was not known."""
     base = ebac.Scenario(device=ebac.presets.device("joystick"))

@@ -85,6 +85,7 @@ def test_a_wall_that_grows_is_no_steeper_one_to_a_coupling(tmp_path: Path) -> No
     assert np.abs(speed).max() < 0.1  # m/s; it was 0.6
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("law", ["ebac", "eba"])
 @pytest.mark.parametrize("observer", [True, False])
 def test_a_slider_that_moves_as_the_hand_comes_in_takes_no_wall_away(
@@ -108,6 +109,7 @@ def test_a_slider_that_moves_as_the_hand_comes_in_takes_no_wall_away(
 @pytest.mark.parametrize("law", ["ebac", "tca-damped", "lag-compensator", "eba"])
 @pytest.mark.parametrize("observer", [True, False])
 @pytest.mark.parametrize("every", [0.016, 0.2], ids=["fast", "slow"])
+@pytest.mark.slow
 def test_a_slider_that_moves_to_and_fro_takes_no_wall_away(
     tmp_path: Path, law: str, observer: bool, every: float
 ) -> None:

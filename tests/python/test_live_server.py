@@ -147,6 +147,7 @@ def test_a_page_shows_the_bodies_that_an_engine_computes(tmp_path: Path) -> None
     assert shapes[1:] == [shapes[0], [[], []]]
 
 
+@pytest.mark.slow
 def test_one_controls_and_many_watch(server: Any) -> None:
     async def opened() -> None:
         async with (
@@ -291,6 +292,7 @@ def test_without_allow_control_nobody_controls_and_the_dead_man_key_ends_with_it
         assert not server.session.running
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("command", "end"),
     [

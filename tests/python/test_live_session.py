@@ -82,6 +82,7 @@ def test_a_law_that_takes_over_makes_no_step(session: Session) -> None:
     assert np.all(tail["law.energy"][at:] == 0)  # columns of the first law
 
 
+@pytest.mark.slow
 def test_what_needs_a_restart_is_restarted(session: Session) -> None:
     session.start()
     assert session.choices.observer

@@ -71,6 +71,7 @@ device.close()
 """
 
 
+@pytest.mark.slow
 def test_the_hand_is_aimed_from_another_thread_while_a_world_in_python_is_called() -> None:
     subprocess.run([sys.executable, "-c", TWO_THREADS], check=True, timeout=60)
 

@@ -9,6 +9,7 @@ from ebac.cli import app
 from ebac.peers import logs
 
 
+@pytest.mark.slow
 def test_the_rows(monkeypatch: pytest.MonkeyPatch) -> None:
     compare = logs.compare_logs
     monkeypatch.setattr(logs, "compare_logs", lambda **more: compare(rows=5000, **more))

@@ -63,6 +63,7 @@ def test_npz_and_mcap_come_back_whole(trace: ebac.Trace, tmp_path: Path) -> None
             assert back[column].tobytes() == trace[column].tobytes()
 
 
+@pytest.mark.slow
 def test_parquet_holds_numbers_and_units(trace: ebac.Trace, tmp_path: Path) -> None:
     parquet = pytest.importorskip("pyarrow.parquet")
     trace.save(tmp_path / "run.parquet")

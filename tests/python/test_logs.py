@@ -382,6 +382,7 @@ def test_a_damaged_chunk_is_left_out_and_the_others_are_read(
 
 
 @given(data=st.data())
+@pytest.mark.slow
 @settings(
     deadline=None, max_examples=25, suppress_health_check=[HealthCheck.function_scoped_fixture]
 )

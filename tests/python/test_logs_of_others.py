@@ -172,6 +172,7 @@ def large(path: Path, trace: ebac.Trace, rows: int) -> Path:
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="reads /proc")
+@pytest.mark.slow
 def test_memory_is_that_of_the_part_asked_for(trace: ebac.Trace, tmp_path: Path) -> None:
     path = large(tmp_path / "large.mcap", trace, 100_000)
     trace.save(tmp_path / "small.mcap")

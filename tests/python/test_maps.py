@@ -93,6 +93,7 @@ def test_the_map_does_not_depend_on_where_it_is_computed(tmp_path: Path) -> None
 
 @pytest.mark.filterwarnings("ignore")
 @pytest.mark.slow
+@pytest.mark.weekly
 def test_a_map_through_dask_has_the_same_bits() -> None:
     distributed = pytest.importorskip("distributed")
     here = small("ebac")
@@ -172,6 +173,7 @@ def test_the_figure_has_four_panels(kind: str, tmp_path: Path) -> None:
     figure.savefig(tmp_path / "map.png", dpi=40)
 
 
+@pytest.mark.slow
 def test_the_figure_names_a_line_only_where_there_is_one_and_has_walls_in_kilonewtons() -> None:
     limits = set()
     for law in ("direct", "ebac"):
@@ -205,6 +207,7 @@ def test_the_command_tells_a_row_per_law() -> None:
     assert 0 <= told["rows"][0]["quiet_share"] <= 1
 
 
+@pytest.mark.slow
 def test_the_command_writes_a_folder_and_continues(tmp_path: Path) -> None:
     out = str(tmp_path / "out")
     text = command("hand-mass,damping", "--side", "3", "--y-high", "5", "--out", out)

@@ -73,6 +73,7 @@ def test_a_grid_is_kept_and_a_damaged_one_is_made_anew(cube: Path, tmp_path: Pat
 
 
 @pytest.mark.slow
+@pytest.mark.weekly
 def test_ebac_is_exact_and_quiet_on_a_mesh(ball: Path) -> None:
     world = preset(f"mesh:{ball}")
     for axes in (1, 2, 3):
@@ -125,6 +126,7 @@ def test_what_is_no_mesh_is_refused(tmp_path: Path) -> None:
         Mesh(str(text), cell=1.0)
 
 
+@pytest.mark.slow
 def test_hills_are_where_the_heights_say() -> None:
     u = np.linspace(-1, 1, 31)
     heights = 3e-3 * np.cos(np.pi * u)[:, None] * np.cos(np.pi * u)
@@ -138,6 +140,7 @@ def test_hills_are_where_the_heights_say() -> None:
         HeightField((1.0, 2.0, 3.0))  # type: ignore[arg-type]
 
 
+@pytest.mark.slow
 def test_more_triangles_make_the_same_grid(tmp_path: Path) -> None:
     fine = tmp_path / "fine.ply"
     trimesh.creation.icosphere(subdivisions=5, radius=0.02).export(fine)

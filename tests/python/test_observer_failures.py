@@ -41,6 +41,7 @@ def compared(
 DEAR = ("cable", "backlash")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("condition", GROUPS["failures"])
 def test_it_is_never_worse_than_the_encoder_alone(condition: str) -> None:
     """Of 60 hands; where they take long to simulate of 5."""

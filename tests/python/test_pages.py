@@ -203,14 +203,14 @@ def judge(code: int, told: str) -> None:
 
 @pytest.mark.real_time  # where a run of a page ends by a stall, the whole page is run again
 @pytest.mark.parametrize("page", [p for p in pages() if steps(p)], ids=name_of)
-@pytest.mark.slow
+@pytest.mark.slow(every=True)
 def test_a_page_can_be_followed(page: Path, tmp_path: Path, server: PageServer) -> None:
     follow(steps(page), name_of(page), tmp_path, server)
 
 
 @pytest.mark.real_time
 @pytest.mark.parametrize("group", GROUPS)
-@pytest.mark.slow
+@pytest.mark.slow(every=True)
 def test_the_examples_of_a_help_text_run(group: str, tmp_path: Path, server: PageServer) -> None:
     found = [
         s

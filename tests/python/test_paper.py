@@ -73,6 +73,7 @@ def test_every_item_of_the_paper_has_a_row() -> None:
     assert sorted(paper.ITEMS) == sorted(["specs", "table1", *equations, *figures])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("verdict", "names"),
     [
@@ -206,6 +207,7 @@ def test_difference_needs_both_numbers() -> None:
 
 
 @pytest.mark.slow
+@pytest.mark.weekly
 def test_report_writes_all(tmp_path: Path) -> None:
     findings = [find(name) for name in paper.ITEMS]
     files = paper.report(tmp_path / "report", findings)

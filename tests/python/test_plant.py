@@ -155,6 +155,7 @@ def test_plant_agrees_with_scipy_over_the_reference_scenario(
     assert_agrees(largest_errors(trace))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("friction", [0.0, 0.4])
 def test_plant_agrees_with_scipy_under_weight_noise_and_jitter(friction: float) -> None:
     scenario = ebac.Scenario(
@@ -171,6 +172,7 @@ def test_plant_agrees_with_scipy_under_weight_noise_and_jitter(friction: float) 
     assert_agrees(largest_errors(ebac.simulate(scenario, "eba")))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("friction", [0.0, 1.0])
 def test_plant_agrees_with_scipy_on_a_moving_target(friction: float) -> None:
     scenario = ebac.Scenario(

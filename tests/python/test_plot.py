@@ -172,11 +172,13 @@ def test_long_lines_keep_their_extremes() -> None:
     assert (kept.max(), kept.min()) == (3.0, -2.0)
 
 
+@pytest.mark.slow
 def test_notebooks_get_a_picture(run: Run) -> None:
     assert plot_trace(run("eba"))._repr_png_().startswith(b"\x89PNG")
 
 
 @pytest.mark.slow
+@pytest.mark.weekly
 def test_threads_may_draw_at_once(run: Run) -> None:
     trace = run("eba", seconds=1.0)
     sizes: list[int] = []

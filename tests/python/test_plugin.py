@@ -46,6 +46,7 @@ def test_the_first_run_writes_and_fails_the_second_passes(project: pytest.Pytest
     project.runpytest_inprocess().assert_outcomes(passed=1)
 
 
+@pytest.mark.slow
 def test_a_difference_is_named_drawn_and_updated_by_the_flag(project: pytest.Pytester) -> None:
     folder = wall(project, 300)
     project.runpytest_inprocess()
@@ -91,6 +92,7 @@ def test_only_what_is_missing_is_written_without_the_flag(project: pytest.Pytest
 
 
 @pytest.mark.slow
+@pytest.mark.weekly
 def test_tests_in_parallel_write_and_compare_their_own(project: pytest.Pytester) -> None:
     pytest.importorskip("xdist")
     project.makepyfile(
@@ -219,6 +221,7 @@ def conformance(project: pytest.Pytester, law: str) -> pytest.RunResult:
     return project.runpytest_inprocess("-q", "-ra")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("law", ["lambda: Damped()", "Bounded"])
 def test_a_good_law_in_python_keeps_the_contract(project: pytest.Pytester, law: str) -> None:
     result = conformance(project, law)

@@ -42,6 +42,7 @@ def arm_log(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return path
 
 
+@pytest.mark.slow
 def test_the_twin_of_the_axis_gives_the_published_parameters(axis_log: Path) -> None:
     """Without --force-constant a drive in V could not be read."""
     words = ["identify", "device", str(axis_log), *AXIS, "--force-constant", str(GTAU)]
@@ -60,6 +61,7 @@ def test_the_twin_of_the_axis_gives_the_published_parameters(axis_log: Path) -> 
 
 
 @pytest.mark.slow
+@pytest.mark.weekly
 def test_intervals_of_twins_hold_the_truth_without_bias(tmp_path: Path) -> None:
     """Damping and friction were 0.9 % off, outside of most intervals."""
     errors, held = [], []
@@ -139,6 +141,7 @@ def of_trial(number: int, axis_number: int) -> dict[str, str]:
     return {s: f"symbol_data_{number}_{n}_{axis_number}" for s, n in names.items()}
 
 
+@pytest.mark.slow
 def test_matrices_of_matlab_with_a_series_a_row_are_series(arm_log: Path) -> None:
     """They were a column a sample, and the message that there is no position had 5 MB."""
     with pytest.raises(ValueError, match="found no position among symbol_data_1_pos_0") as refused:
@@ -169,6 +172,7 @@ def test_the_robot_that_a_hand_leads_is_what_it_renders(arm_log: Path) -> None:
         assert rows[name]["value"] == pytest.approx(true, rel=0.01)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("told", [False, True])
 def test_a_hand_that_leads_a_robot_which_only_follows_is_not_determined(
     arm_log: Path, told: bool
@@ -182,6 +186,7 @@ def test_a_hand_that_leads_a_robot_which_only_follows_is_not_determined(
     assert set(identify.fit_arm(recording, following).undetermined) >= set(HAND)
 
 
+@pytest.mark.slow
 def test_a_hand_whose_robot_pushes_back_is_determined(tmp_path: Path) -> None:
     scipy_io.savemat(tmp_path / ARMS, trials(pushed=True))
     recording = identify.load(tmp_path / ARMS, columns=of_trial(2, 0), rate=1000)

@@ -30,6 +30,7 @@ def found() -> RandomWorlds:
     return random_worlds(("direct", "ebac"), kinds=("planes", "cavity"), hands=5)
 
 
+@pytest.mark.slow
 def test_rows_are_in_the_order_of_the_arguments(found: RandomWorlds) -> None:
     names = [(row.kind, row.device, row.law) for row in found.rows]
     assert names == [
@@ -98,6 +99,7 @@ def test_a_hand_that_follows_a_yielding_surface_keeps_it(where: tuple[str, str, 
     assert drawn(trace) == 0
 
 
+@pytest.mark.slow
 def test_threads_more_hands_and_other_rows_change_no_hand() -> None:
     few = random_worlds(kinds=["balls"], devices=["2-axes"], hands=3, moving=True, threads=1)
     more = random_worlds(

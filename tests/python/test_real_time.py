@@ -102,6 +102,7 @@ ALONE = """
 
 
 @pytest.mark.slow
+@pytest.mark.weekly
 def test_what_is_repeated_is_repeated_alone(pytester: pytest.Pytester) -> None:
     pytest.importorskip("xdist")
     pytester.makeconftest(CONFTEST.read_text(encoding="utf-8"))

@@ -106,6 +106,7 @@ def test_the_doctor_reads_a_machine(tmp_path: Path) -> None:
     assert not [f for f in realtime.examine(root=tmp_path) if "eth0" in f.what]
 
 
+@pytest.mark.slow
 def test_the_doctor_of_an_empty_machine_says_unknown(tmp_path: Path) -> None:
     assert find(tmp_path, "clock source").found == "unknown"
     assert find(tmp_path, "CAN interface").found == "none"

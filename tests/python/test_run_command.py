@@ -106,6 +106,7 @@ def test_a_run_gives_rows_verdict_figure_and_a_log_that_others_read(
     assert json.loads(info.stdout)["command"] == "log info"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("number", "code"), [(signal.SIGINT, 130), (signal.SIGTERM, 143), (signal.SIGHUP, 129)]
 )

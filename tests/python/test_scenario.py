@@ -74,6 +74,7 @@ scenarios = st.builds(
 
 @given(scenario=scenarios)
 @settings(max_examples=150)
+@pytest.mark.slow
 def test_toml_and_back_is_the_same_scenario(scenario: ebac.Scenario) -> None:
     text = scenario.to_toml()
     again = ebac.Scenario.from_toml(text)

@@ -204,6 +204,7 @@ def test_bias_shows_before_and_after(simulated: SimulatedSensor) -> None:
 
 
 @pytest.mark.slow
+@pytest.mark.weekly
 def test_bias_takes_no_load_without_being_told(tmp_path: Path) -> None:
     options = EmulatorOptions(load=20)
     with SimulatedSensor(options=options) as heavy:

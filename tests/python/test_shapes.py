@@ -22,6 +22,7 @@ def found() -> Shapes:
     return shapes(("direct", "ebac"), worlds=("sphere", "corner", "soft"))
 
 
+@pytest.mark.slow
 def test_ebac_is_good_everywhere_and_direct_swings_where_it_is_stiff(found: Shapes) -> None:
     assert len(found.rows) == 2 * 3 * (2 + 2 + 1)
     for row in found.rows:
@@ -35,6 +36,7 @@ def test_ebac_is_good_everywhere_and_direct_swings_where_it_is_stiff(found: Shap
     assert {row.stiffness_N_per_m for row in found.rows if row.world == "soft"} == {None}
 
 
+@pytest.mark.slow
 def test_ebac_is_good_with_a_noisy_sensor_as_well() -> None:
     """Two and three axes, 10 kN/m; on the encoder alone its force clicks."""
     worlds, devices = ("sphere", "corner"), ("joystick", "joystick-3")

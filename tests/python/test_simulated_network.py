@@ -160,6 +160,7 @@ def test_a_run_is_simulated_on_drives_of_other_makers(own: Path) -> None:
 
 @pytest.mark.real_time
 @pytest.mark.slow
+@pytest.mark.weekly
 def test_signs_are_found_on_drives_that_stand_on_a_bus_of_their_own(own: Path) -> None:
     """As with `ebac drive simulate FILE` and `ebac drive signs FILE`, without its --simulated."""
     known = Configuration.load(own)
@@ -308,6 +309,7 @@ def test_a_taken_port_of_the_sensor_is_named_and_nothing_is_said_to_be_unreadabl
     assert f"Error: UDP at 127.0.0.1:{port}: the port is taken" in said(result)
 
 
+@pytest.mark.slow
 @pytest.mark.real_time  # multicast drops frames that nobody takes in time
 def test_the_drives_of_a_configuration_are_set_up_from_another_process(own: Path) -> None:
     pytest.importorskip("msgpack")

@@ -311,6 +311,7 @@ def test_json_has_exactly_the_documented_keys(hands_csv: Path) -> None:
     assert list(hands_csv.parent.iterdir()) == [hands_csv]
 
 
+@pytest.mark.slow
 def test_a_folder_of_results(hands_csv: Path, few: Study) -> None:
     words = ("--population", hands_csv, "-l", "tca", "-l", "ebac", "--out", "out", "--traces", 2)
     shown = command(*words).stdout
@@ -328,6 +329,7 @@ def test_a_folder_of_results(hands_csv: Path, few: Study) -> None:
     assert command(*words, "--resume").stdout == shown
 
 
+@pytest.mark.slow
 def test_one_failure_of_each_law_is_shown_and_its_trace_kept(hands_csv: Path) -> None:
     words = ("--population", hands_csv, "-l", "tca,tca-damped,ebac", "-c", "d1K10,d0K10")
     shown = command(*words, "--out", "out").stdout

@@ -107,6 +107,7 @@ def test_an_executor_of_threads_gives_the_same_bits(local: SweepResult) -> None:
         assert_same_bits(sweep(scenarios(), LAWS, seed=3, executor=executor, bundle=3), local)
 
 
+@pytest.mark.slow
 def test_an_executor_of_processes_gives_the_same_bits(local: SweepResult) -> None:
     with ProcessPoolExecutor(2, mp_context=get_context("spawn")) as executor:
         assert_same_bits(sweep(scenarios(), LAWS, seed=3, executor=executor, bundle=3), local)
@@ -253,6 +254,7 @@ sweep(Operators.sample(60, 1).scenarios(base), "ebac", seed=3, bundle=2, threads
 """
 
 
+@pytest.mark.slow
 def test_a_sweep_that_was_killed_continues_and_gives_the_same_bits(tmp_path: Path) -> None:
     out = tmp_path / "sweep"
     worker = subprocess.Popen([sys.executable, "-c", KILLED, str(out)])

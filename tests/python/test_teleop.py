@@ -446,6 +446,7 @@ def test_a_slave_that_was_held_up_does_not_hit() -> None:
 
 @pytest.mark.skipif(sys.platform != "linux", reason="UDP of the library is Linux's")
 @pytest.mark.slow
+@pytest.mark.weekly
 def test_endurance_finds_what_is_beyond_a_limit(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(sys.modules["ebac.teleop.endurance"], "master_limit", lambda: -1.0)
     link = Link(delay=0.02, cut_every=3, cut_length=1)

@@ -57,6 +57,7 @@ layer = st.builds(
 
 @given(st.lists(layer, min_size=1, max_size=6), st.floats(2e-3, 0.1))
 @settings(max_examples=12)
+@pytest.mark.slow
 def test_layers_of_any_kind_are_their_closed_form(layers: list[Layer], speed: float) -> None:
     curve = force_depth(Layered(*layers), speed=speed)
     assert curve.error < 1e-9
@@ -95,6 +96,7 @@ def test_its_figure_has_the_curves_and_the_laws(found: Tissue) -> None:
     assert len(plot_tissue(alone).axes) == 1
 
 
+@pytest.mark.slow
 def test_the_command_gives_the_numbers_with_their_units(tmp_path: Path) -> None:
     words = ["tissue", "--law", "ebac", "--depth", "0.01", "--json", "--out", str(tmp_path / "t")]
     answer = CliRunner().invoke(app, words)

@@ -124,6 +124,7 @@ def test_an_event_that_is_none_is_refused(text: str) -> None:
         Event.from_json(text.encode())
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("how", ["zstd", "zstd, size not told", "lz4"])
 @pytest.mark.parametrize("told", [100, 1 << 28])
 def test_what_unpacks_to_more_than_it_says_is_not_unpacked(how: str, told: int) -> None:

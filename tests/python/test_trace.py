@@ -280,6 +280,7 @@ def test_what_is_no_archive_is_refused(tmp_path: Path) -> None:
             ebac.Trace.from_npz(tmp_path / name)
 
 
+@pytest.mark.slow
 def test_html_is_a_table_of_the_columns(trace: ebac.Trace) -> None:
     html = trace._repr_html_()
     flat = list(trace.flat())

@@ -85,6 +85,7 @@ def test_two_files_of_one_name_keep_two_figures() -> None:
     assert {f.name for f in Path("out").iterdir()} == {"run-1.png", "run-2.png", "track.json"}
 
 
+@pytest.mark.slow
 def test_the_error_budget_stands_beside_the_table() -> None:
     done = ebac_command("--simulated", "--runs", "4")
     assert done.exit_code == 0

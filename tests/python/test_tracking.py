@@ -76,6 +76,7 @@ def test_a_line_without_noise_is_found_exactly(
     assert fit.deviation.outliers == 0
 
 
+@pytest.mark.slow
 @given(
     place=places,
     radius=st.floats(1e-3, 1),
@@ -101,6 +102,7 @@ def test_a_circle_without_noise_is_found_exactly(
 @pytest.mark.parametrize("robust", [False, True])
 @settings(max_examples=8)
 @given(seed=seeds, angle=angles, place=places, scale=scales)
+@pytest.mark.slow
 def test_a_fit_moves_turns_and_grows_with_its_points(
     shape: str, robust: bool, seed: int, angle: float, place: tuple[float, float], scale: float
 ) -> None:
@@ -382,6 +384,7 @@ def test_slack_moves_a_position_by_no_more_than_half_of_it(play: float, seed: in
     assert off.max() > 0.2 * play
 
 
+@pytest.mark.slow
 def test_the_budget_adds_up_and_blames_what_it_should() -> None:
     budget = error_budget(runs=5, seed=3)
     count = ebac.presets.device("joystick").count
@@ -396,6 +399,7 @@ def test_the_budget_adds_up_and_blames_what_it_should() -> None:
     assert error_budget(runs=5, seed=4).rows != budget.rows
 
 
+@pytest.mark.slow
 def test_the_slack_that_would_explain_the_table_does() -> None:
     slack = error_budget(runs=4, seed=3).slack_m["circle"]
     assert slack is not None

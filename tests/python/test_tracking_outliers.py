@@ -96,6 +96,7 @@ def test_outliers_that_once_counted_are_left_out(seed: int) -> None:
 @by_shape
 @settings(max_examples=10)
 @given(seed=seeds, share=st.floats(0.02, 0.45))
+@pytest.mark.slow
 def test_a_robust_fit_leaves_outliers_out(shape: str, seed: int, share: float) -> None:
     random = np.random.default_rng(seed)
     points = followed(shape, random)
@@ -108,6 +109,7 @@ def test_a_robust_fit_leaves_outliers_out(shape: str, seed: int, share: float) -
 
 @settings(max_examples=8)
 @given(seed=seeds, share=st.floats(0.02, 0.45), arc=st.floats(math.pi / 3, 2 * math.pi))
+@pytest.mark.slow
 def test_an_arc_of_60_degrees_is_enough(seed: int, share: float, arc: float) -> None:
     random = np.random.default_rng(seed)
     points = followed("circle", random, arc=arc)
@@ -119,6 +121,7 @@ def test_an_arc_of_60_degrees_is_enough(seed: int, share: float, arc: float) -> 
 @by_shape
 @settings(max_examples=8)
 @given(seed=seeds, share=st.floats(0.1, 0.45), place=st.floats(5e-3, 0.02))
+@pytest.mark.slow
 def test_outliers_may_lie_together(shape: str, seed: int, share: float, place: float) -> None:
     random = np.random.default_rng(seed)
     points = followed(shape, random)
@@ -131,6 +134,7 @@ def test_outliers_may_lie_together(shape: str, seed: int, share: float, place: f
 @by_shape
 @settings(max_examples=8)
 @given(seed=seeds, share=st.floats(0.02, 0.15))
+@pytest.mark.slow
 def test_outliers_may_lie_near(shape: str, seed: int, share: float) -> None:
     """Five to ten standard deviations away, on both sides; with 25 % of them 2 circles in 100 are missed."""
     random = np.random.default_rng(seed)
@@ -157,6 +161,7 @@ def test_twelve_points_are_enough(shape: str, seed: int, share: float) -> None:
 @by_shape
 @settings(max_examples=10)
 @given(seed=seeds, n=st.integers(60, 300))
+@pytest.mark.slow
 def test_without_outliers_a_robust_fit_is_the_plain_one(shape: str, seed: int, n: int) -> None:
     """To the bit where it counts all points; otherwise few are missing."""
     points = followed(shape, np.random.default_rng(seed), n)
@@ -171,6 +176,7 @@ def test_without_outliers_a_robust_fit_is_the_plain_one(shape: str, seed: int, n
 
 @settings(max_examples=8)
 @given(seed=seeds, share=st.floats(0.02, 0.45))
+@pytest.mark.slow
 def test_in_space_outliers_may_lie_off_the_plane(seed: int, share: float) -> None:
     random = np.random.default_rng(seed)
     flat = followed("circle", random)
@@ -226,6 +232,7 @@ def test_the_cut_is_a_quantile_of_students_t(freedom: int) -> None:
 @by_shape
 @settings(max_examples=8)
 @given(seed=seeds, share=st.floats(0.02, 0.35))
+@pytest.mark.slow
 def test_a_rest_is_one_place(shape: str, seed: int, share: float) -> None:
     """A recording that starts long before the motion: two thirds of its rows are the same."""
     random = np.random.default_rng(seed)

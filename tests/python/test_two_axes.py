@@ -339,6 +339,7 @@ def two_balls(
     ]
 
 
+@pytest.mark.slow
 @every_device
 @given(
     apart=st.floats(0.2, 2.5),
@@ -422,6 +423,7 @@ def tracing(radius: float, press: float, frequency: float, hand: ebac.Hand) -> e
 )
 @example(radius=0.01, press=1.8, frequency=2, stiffness=10e3, delay=1, mass=0.15)
 @pytest.mark.slow
+@pytest.mark.weekly
 def test_a_hand_that_traces_a_disc_keeps_it(
     device: str,
     radius: float,
@@ -472,6 +474,7 @@ def test_a_moving_body_tells_no_speed_far_above_its_own(device: str) -> None:
     assert trace["law.starved"].max() < 0.02
 
 
+@pytest.mark.slow
 @every_device
 @given(
     apart=st.floats(0.2, 2.5),

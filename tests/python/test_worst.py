@@ -233,6 +233,7 @@ def test_json_has_exactly_the_documented_keys(tmp_path: Path) -> None:
     assert list(tmp_path.iterdir()) == []
 
 
+@pytest.mark.slow
 def test_the_worst_hand_is_written_so_that_it_can_be_replayed(tmp_path: Path) -> None:
     words = ("--family", "swinging", "--family", "noise", "--evaluations", 40, "--out", "out")
     shown = " ".join(command(*words).stdout.split())
@@ -250,6 +251,7 @@ def test_the_worst_hand_is_written_so_that_it_can_be_replayed(tmp_path: Path) ->
     assert f"ebac wall --law ebac --scenario out/worst-{rows[0]['family']}.toml" in shown
 
 
+@pytest.mark.slow
 def test_a_short_search_says_that_it_proves_less() -> None:
     words = ("--family", "impact", "--no-files", "--evaluations")
     shown = " ".join(command(*words, 40).stdout.split())

@@ -162,6 +162,7 @@ def test_wall_damping_on_encoder_counts_is_felt_however_soft_the_wall(found: ZWi
     assert (observed.limits["quiet"][0, 0] > 1e3).all()
 
 
+@pytest.mark.slow
 def test_random_hands_find_the_energy_that_a_press_and_a_tap_do_not() -> None:
     few = {"delays": (1,), "dampings": (0.0, 10.0), "rungs": 4}
     base = ebac.Scenario(seconds=1.0, observer="every-law")
@@ -355,6 +356,7 @@ def test_the_command_tells_rows_and_scores() -> None:
     assert [row["stiffness_N_per_m"] for row in told["vibration"]] == list(STIFFNESSES)
 
 
+@pytest.mark.slow
 def test_the_command_writes_a_folder(tmp_path: Path) -> None:
     text = command(*SMALL, "--out", str(tmp_path / "out"))
     assert "stiffness times damping, in kN/m N s/m. Delay in samples." in " ".join(text.split())
@@ -398,6 +400,7 @@ def test_a_top_below_the_least_is_named() -> None:
     assert "--top = 50 N/m: must lie above --least = 100 N/m" in text
 
 
+@pytest.mark.slow
 def test_random_hands_are_named_where_the_result_is_shown(tmp_path: Path) -> None:
     text = command(*SMALL, "--hands", "1", "--out", str(tmp_path))
     assert "hold for 7 random hands as well; one that pulls harder than 20 N" in " ".join(
