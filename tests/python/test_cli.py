@@ -745,10 +745,13 @@ def test_a_mesh_without_its_library_is_refused_in_a_sentence(
     )
 
 
+@pytest.mark.parametrize(
+    "words", [["run", "--virtual", "--seconds", "0.2"], ["specs", "--scenario"]]
+)
 def test_a_configuration_whose_wall_or_sensor_is_likely_in_a_wrong_unit_is_noted(
-    tmp_path: Path,
+    words: list[str], tmp_path: Path
 ) -> None:
-    """A wall of 5 N/m (5 kN/m was meant) and one count a newton were run without a word."""
+    """A wall of 5 N/m (5 kN/m was meant) and one count a newton were taken without a word."""
     example = (Path(__file__).parents[2] / "examples" / "joystick.toml").read_text()
     file = tmp_path / "joystick.toml"
     file.write_text(
@@ -756,7 +759,7 @@ def test_a_configuration_whose_wall_or_sensor_is_likely_in_a_wrong_unit_is_noted
             "counts_per_force = 1e6", "counts_per_force = 1.0"
         )
     )
-    done = CliRunner().invoke(app, ["run", str(file), "--virtual", "--seconds", "0.2"])
+    done = CliRunner().invoke(app, [*words, str(file)])
     noted = " ".join(done.stderr.split())
     assert "environment.stiffness: a wall of 5 N/m: usual are 50 to 500000 N/m" in noted
     assert (

@@ -16,11 +16,12 @@ namespace ebac {
 ///      same place, of another law as much as the law before has given of it lately. The share grows by a factor e in a
 ///      quarter of a second. A contact that stores less than a millijoule is shown whole, and so is a small force, and
 ///      all after a contact is lost. To the law none of this is a motion: what it remembers of the contact is scaled.
-///   2. What the change makes the command of the first tick differ by from that of the last one fades within 50 ms, and
-///      with the force of the contact: behind it nothing would stop the hand. Of another world that is at most what its
-///      force differs by at the same place (in a contact of several axes all, for their directions begin anew). A law without memory needs some ticks to reach its force, so of another law
-///      the difference is that of each tick, of the part of the force that was there in the first one; it ends where a
-///      contact begins. The command lies between the law's and that of the last tick before.
+///   2. Part of the first command's difference from the last one is the change's. It fades within 50 ms, and with the
+///      force of the contact, since behind it nothing would stop the hand. Of another world that part is at most the
+///      difference of the two forces at the same place (where several axes are in contact all of it, for their
+///      directions begin anew). Of another law it is the difference of each tick, as a law without memory needs some
+///      to reach its force, and of the force only what was there in the first tick; it ends where a contact begins.
+///      The command lies between the law's and that of the last tick before.
 ///   3. What the contact stores by the change, or no longer stores, no motion has paid for: accounts are told.
 class TakeOver {
  public:

@@ -5,15 +5,17 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ebac.cli import doubtful_device, output
+from ebac.cli import doubtful_device, doubtful_sensor, doubtful_wall, output
 
 if TYPE_CHECKING:
     from ebac.hardware import Configuration
 
 
 def tell(file: Path | str, known: Configuration) -> None:
-    """Say on stderr what of a configuration is likely not meant."""
+    """Say on stderr what of a configuration is likely not meant: of device, wall, force sensor, and their limits."""
     doubtful_device.tell(file, known.device)
+    doubtful_wall.tell_file(file, known.environment)
+    doubtful_sensor.tell(file, known.sensor)
     for text in doubts(known):
         output.note(f"{file}: {text}")
 

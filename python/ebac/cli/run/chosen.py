@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ebac.cli import by_name, doubtful_run, doubtful_sensor, doubtful_wall, options, setting
+from ebac.cli import by_name, doubtful_run, options, setting
 
 if TYPE_CHECKING:
     from ebac.hardware import Configuration
@@ -26,8 +26,6 @@ def chosen(
 
     known = Configuration.load(file)
     doubtful_run.tell(file, known)
-    doubtful_wall.tell_file(file, known.environment)
-    doubtful_sensor.tell(file, known.sensor)
     changes: dict[str, Any] = {
         "environment": options.wall_of(known.environment, wall),
         "hand": options.hand_of(known.hand, person),
