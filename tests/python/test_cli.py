@@ -357,7 +357,7 @@ def test_a_fault_is_told_and_its_log_kept(monkeypatch: pytest.MonkeyPatch, tmp_p
         ("wall --scenario .", "cannot be read"),
         ("wall --scenario broken.toml", "not a TOML document"),
         ("wall --scenario unknown.toml", "did you mean 'seed'"),
-        ("wall --scenario negative.toml", "Wall.stiffness = -1 N/m"),
+        ("wall --scenario negative.toml", "environment.stiffness = -1 N/m"),
         ("wall --scenario corner.toml --wall-stiffness 3", "environment is a Corner"),
         ("wall --scenario sine.toml --hand-target 0.1", "Sine path, which has no target"),
         ("wall --wall-stiffness 10kN/m", "10kN/m: must be a number (in N/m); give 10000"),
@@ -395,7 +395,7 @@ def test_a_fault_is_told_and_its_log_kept(monkeypatch: pytest.MonkeyPatch, tmp_p
         ("specs --device bob", "joystick"),
         ("specs --device joystick --scenario corner.toml", "give one of the two"),
         ("specs --scenario none.toml", "none.toml: there is no such file"),
-        ("specs --scenario negative.toml", "Wall.stiffness = -1 N/m"),
+        ("specs --scenario negative.toml", "environment.stiffness = -1 N/m"),
         ("bench --repeats 0", "--repeats"),
         ("wal", "wal"),
         (

@@ -37,20 +37,23 @@ def line_of(text: str, path: Path) -> int | None:
 
 
 def located(file: object, text: str, message: str) -> str:
-    """Return a message of a scenario with its file and, where it names a key of the text, the line."""
-    line = _line_of_error(text, message)
-    return f"{file}: {message}" if line is None else f"{file}, line {line}: {message}"
+    """Return a message of a scenario with its file and, where it names a key of the text, the line.
 
-
-def _line_of_error(text: str, message: str) -> int | None:
+    A key that stands in the text is named as there: environment.stiffness, not the field of a class.
+    """
     place, key = _PLACE.match(message), _KEY.search(message)
-    parts = [] if place is None else re.findall(r"\w+", place[1])
+    begin, at = ("", "") if place is None else (f"{place[0]}: ", place[1].removeprefix(".") + ".")
+    parts = re.findall(r"\w+", at)
     table = tuple(int(part) if part.isdigit() else part for part in parts)
-    paths = [table] if table else []
+    line = None
     if key is not None:
-        paths.insert(0, (*table, key[1] or key[2]))
-    found = (line_of(text, path) for path in paths)
-    return next((line for line in found if line is not None), None)
+        name = key[1] or key[2]
+        line = line_of(text, (*table, name))
+        if line is not None and message.startswith(field := f"{begin}{key[0]} = "):
+            message = f"{at}{name} = {message.removeprefix(field)}"
+    if line is None and table:
+        line = line_of(text, table)
+    return f"{file}: {message}" if line is None else f"{file}, line {line}: {message}"
 
 
 def _paths(value: Any, path: Path = ()) -> Iterator[Path]:
