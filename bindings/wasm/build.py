@@ -1,8 +1,8 @@
 """Compile the core to WebAssembly: `python bindings/wasm/build.py [OUT]`.
 
 Needs the `ziglang` wheel, a C++ compiler with the libraries of wasm32-wasi, and Eigen's headers: in a clone
-`pip install '.[wasm]'`. EBAC_WASM_CXX may name another such compiler: ziglang's compiles its libraries first, which takes
-three times as long as the module. Without OUT the module goes where the installed package looks for it.
+`pip install '.[wasm]'`. EBAC_WASM_CXX may name another such compiler: ziglang's compiles its libraries first, which
+takes three times as long as the module. Without OUT the module goes where the installed package looks for it.
 """
 
 import os
