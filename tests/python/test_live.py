@@ -125,8 +125,8 @@ def test_a_curve_has_gaps_where_there_is_no_value(in_javascript: Callable[..., A
     return drawn;"""
     drawn = in_javascript(code)
     assert drawn == [
-        *(["move", 1, 1], ["line", 2, 2]),
-        *(["move", 5, 3], ["line", 6, 4], ["line", 7, 5]),
+        *(["move", 0.5, 1], ["line", 1, 1], ["line", 2, 2]),
+        *(["move", 4.5, 3], ["line", 5, 3], ["line", 6, 4], ["line", 7, 5]),
     ]
 
 

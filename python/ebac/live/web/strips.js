@@ -114,8 +114,8 @@ function curve(g, t, line, x, y) {
   g.beginPath();
   let [column, low, high, last, gap] = [NaN, 0, 0, 0, true];
   const to = (value) => {
-    if (gap) g.moveTo(column, y(value));
-    else g.lineTo(column, y(value));
+    if (gap) g.moveTo(column - 0.5, y(value)); // a value between two gaps is seen, too
+    g.lineTo(column, y(value));
     gap = false;
   };
   const flush = () => {
