@@ -284,5 +284,5 @@ def test_a_vector_of_text_in_a_file_is_refused_by_name(tmp_path: Path) -> None:
     ebac.Scenario(environment=World(Placed(Sphere(), (0.5, 0.0, 0.0)))).save(path)
     text = path.read_text(encoding="utf-8")
     path.write_text(text.replace("at = [\n    0.5", 'at = [\n    "abc"'), encoding="utf-8")
-    with pytest.raises((ValueError, TypeError), match=r"Placed.at = .*must be three numbers"):
+    with pytest.raises((ValueError, TypeError), match=r"solid\.at = .*must be three numbers"):
         ebac.Scenario.load(path)
