@@ -289,19 +289,29 @@ def test_the_force_loop_is_closed_on_the_sensor(device: OpenDevice) -> None:
     assert (trace["ft.age"][:, 0] >= 0).all()
 
 
-def test_drives_do_not_miss_a_loop_that_has_ended(device: OpenDevice) -> None:
+@pytest.mark.parametrize(
+    ("profile", "watch"),
+    [("copley-accelnet", "heartbeat_consumer"), ("copley-guarded", "life_time_factor")],
+)
+def test_drives_do_not_miss_a_loop_that_has_ended(profile: str, watch: str, tmp_path: Path) -> None:
+    network = tmp_path / "network.toml"
+    nodes = "".join(f'[[node]]\nid = {node}\nprofile = "{profile}"\n' for node in (1, 2))
+    network.write_text(nodes, encoding="utf-8")
+    known = configuration(drives=drives.load(network))
+
     def seen() -> list[tuple[int, int]]:  # what each drive watches, and its errors
-        place = device.backend
         with drives.DriveBus.open(interface=place.interface, channel=place.channel) as bus:
             both = (bus.drive(node) for node in (1, 2))
-            return [(one.number("heartbeat_consumer"), one.number((0x1003, 0))) for one in both]
+            return [(one.number(watch), one.number((0x1003, 0))) for one in both]
 
-    watching = seen()
-    assert all(consumer & 0xFFFF > 0 and errors == 0 for consumer, errors in watching)
-    for _ in range(2):
-        under_the_law(device.run(environment=ebac.Free(), seconds=0.1))
-        time.sleep(0.5)
-        assert seen() == watching  # and no heartbeat lost meanwhile
+    with ebac.Device.open(known, simulate=True) as device:
+        place = device.backend
+        watching = seen()
+        assert all(watched > 0 and errors == 0 for watched, errors in watching)
+        for _ in range(2):
+            under_the_law(device.run(environment=ebac.Free(), seconds=0.1))
+            time.sleep(0.5)
+            assert seen() == watching  # and nothing lost meanwhile
 
 
 def test_a_drive_that_holds_something_else_is_refused() -> None:

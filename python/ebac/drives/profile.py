@@ -25,6 +25,8 @@ from ebac.drives.toml_positions import Source, dotted
 
 #: Tables of a profile that hold keys; `pdo` and `about` are read apart.
 TABLES = tuple(dict.fromkeys(key.name.partition(".")[0] for key in KEYS))
+#: Keys of what a drive watches of the loop beside its torques: its heartbeat, or its requests (node guarding).
+SIGNS_OF_LIFE = ("heartbeat.consumer", "heartbeat.guard")
 
 
 @plain_constructor
@@ -106,15 +108,17 @@ class Profile:
         changes = {name.replace("__", "."): value for name, value in values.items()}
         return dataclasses.replace(self, values={**self.values, **changes})
 
-    def with_deadline(self, seconds: float) -> Self:
-        """Return a copy whose drive waits at least `seconds` for each torque it has a deadline for."""
+    def with_patience(self, *, torque: float, heartbeat: float = 0.0) -> Self:
+        """Return a copy whose drive waits at least so long [s] for a torque, heartbeat or request that it watches."""
         pdos = tuple(
-            dataclasses.replace(pdo, event=max(pdo.event, seconds))
+            dataclasses.replace(pdo, event=max(pdo.event, torque))
             if pdo.event > 0 and not pdo.sent
             else pdo
             for pdo in self.pdos
         )
-        return dataclasses.replace(self, pdos=pdos)
+        watched = {key: float(self.values.get(key, 0.0)) for key in SIGNS_OF_LIFE}
+        patient = {key: heartbeat for key, value in watched.items() if 0 < value < heartbeat}
+        return dataclasses.replace(self, pdos=pdos, values={**self.values, **patient})
 
     def traffic(self, node: int) -> list[Traffic]:
         """Return the frames of a node that come again and again."""

@@ -6,7 +6,7 @@ from math import inf
 
 from ebac.drives.errors import ProfileError
 from ebac.drives.network import Network
-from ebac.drives.profile import Profile
+from ebac.drives.profile import SIGNS_OF_LIFE, Profile
 
 #: The longest a drive may hold a torque that nobody commands any more [s].
 LONGEST = 0.5
@@ -25,7 +25,7 @@ def watches(profile: Profile) -> dict[str, float]:
         for pdo in profile.pdos
         if not pdo.sent and "target_torque" in pdo.objects and pdo.event > 0
     }
-    for key in ("heartbeat.consumer", "heartbeat.guard"):
+    for key in SIGNS_OF_LIFE:
         if (watched := float(profile.values.get(key, 0.0))) > 0:
             found[key] = watched
     return found

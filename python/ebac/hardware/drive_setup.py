@@ -14,14 +14,13 @@ from ebac.drives.who_answers import naming_who_answers
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from ebac.drives import Drive, Profile
+    from ebac.drives import Drive
     from ebac.hardware.backends import Backend
     from ebac.hardware.configuration import Configuration
 
 #: The shortest period of SYNC written to a simulated drive [s]. It takes the silence of twenty for a broken bus, and an
 #: ordinary kernel under load, or in a virtual machine, pauses a loop for 20 ms now and then.
 _SHORTEST = 10e-3
-_SIGNS_OF_LIFE = ("heartbeat.consumer", "heartbeat.guard")
 #: What makes a drive watch the loop's heartbeat, or its requests (node guarding); 0 where it does not (CiA 301).
 _WATCHES = ("heartbeat_consumer", "life_time_factor")
 #: Periods of SYNC that a simulated drive may miss, and torques that any drive may.
@@ -36,19 +35,16 @@ def nodes_of(configuration: Configuration, *, simulate: bool) -> tuple[Node, ...
     dt = configuration.timing.dt
     if simulate:
         dt = max(dt, _SHORTEST)
-    longest = _SYNCS * dt if simulate else _MISSED * dt
-    patience = _SYNCS * _SHORTEST
-
-    def of_the_loop(profile: Profile) -> Profile:
-        watched = ((key, float(profile.values.get(key, 0))) for key in _SIGNS_OF_LIFE)
-        short = {key: patience for key, seconds in watched if simulate and 0 < seconds < patience}
-        changes = {"sync.period": dt, **short}
-        return profile.with_deadline(longest).replace(
-            **{key.replace(".", "__"): value for key, value in changes.items()}
-        )
-
+    torque = _SYNCS * dt if simulate else _MISSED * dt
+    heartbeat = _SYNCS * _SHORTEST if simulate else 0.0
     return tuple(
-        replace(node, profile=of_the_loop(node.profile)) for node in configuration.drives.nodes
+        replace(
+            node,
+            profile=node.profile.with_patience(torque=torque, heartbeat=heartbeat).replace(
+                sync__period=dt
+            ),
+        )
+        for node in configuration.drives.nodes
     )
 
 
@@ -147,15 +143,16 @@ def power_off(backend: Backend, nodes: Sequence[Node]) -> list[str]:
     failed: list[DriveError] = []
     states: list[str] = []
     with drives_at(backend, nodes) as drives:
+        resting = []
         for drive in drives:
             try:
                 states.append(drive.disable().value)
+                resting.append(drive)
             except DriveError as error:
                 failed.append(error)
-        for drive in drives:
-            with suppress(
-                DriveError
-            ):  # it has no power; the next start does so again, and reads it back
+        for drive in resting:
+            # Whatever fails: it has no power, and the next start writes it again and reads it back.
+            with suppress(DriveError):
                 _begin_watch_anew(drive)
     if failed:
         for other in failed[1:]:

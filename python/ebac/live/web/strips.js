@@ -119,16 +119,16 @@ function curve(g, t, line, x, y) {
     gap = false;
   };
   const flush = () => {
-    if (!(column === column)) return;
+    if (Number.isNaN(column)) return;
     if (low !== high) for (const value of [low, high]) to(value);
     to(last);
   };
   for (let k = 0; k < t.length; ++k) {
     const value = line.y[k];
-    const at = value === value ? Math.round(x(t[k]) * 2) / 2 : NaN;
+    const at = Number.isNaN(value) ? NaN : Math.round(x(t[k]) * 2) / 2;
     if (at !== column) {
       flush();
-      gap ||= !(at === at);
+      gap ||= Number.isNaN(at);
       [column, low, high] = [at, value, value];
     }
     low = Math.min(low, value);
