@@ -25,7 +25,7 @@ from ebac.cli.sensor.options import telling as telling_of_sensor
 if TYPE_CHECKING:
     from ebac._core import Grant, Setup, SocketCanJoystick
     from ebac.drives.simulate import Simulation
-    from ebac.hardware.backends import Request
+    from ebac.hardware.simulated_parts import Request
 
 MODES = ("auto", "enforce", "off")
 #: How often the main thread looks after the others [s].
@@ -153,7 +153,7 @@ def simulate(
     """
     from ebac._core import DriveWiring, RealTime, SharedForce, SharedHandTarget
     from ebac.drives.simulate import Simulation
-    from ebac.hardware.backends import Request, sensor_of, unheld
+    from ebac.hardware.simulated_parts import Request, sensor_of, unheld
 
     if realtime not in MODES:
         output.fail(unknown(f"--realtime {realtime}", realtime, MODES))
@@ -231,7 +231,7 @@ def _at_work(
     from ebac.drives import BusError
     from ebac.drives.bus import open_bus
     from ebac.drives.simulate import Simulation, refuse_taken
-    from ebac.hardware.backends import at_work
+    from ebac.hardware.simulated_parts import at_work
 
     known_interface(interface)
     if interface == "ebac":
