@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 import ebac
 from ebac import faults, paper
-from ebac._util import formatting
+from ebac._util import formatting, verdicts
 from ebac._util.report import cell, report
 from ebac.operators import Operators
 from ebac.studies import ablation, study, worst
@@ -53,7 +53,7 @@ def results() -> dict[str, Callable[[], Any]]:
 def test_a_vibration_that_is_none_is_printed_as_0() -> None:
     assert formatting.quantity(1.8e-12, "threshold") == "0"
     assert formatting.quantity(19.816, "threshold") == "19.82"
-    assert formatting.force_verdict(True, 0.1, 0, 1.8e-12).endswith("vibration 0 thresholds")
+    assert verdicts.force_verdict(True, 0.1, 0, 1.8e-12).endswith("vibration 0 thresholds")
 
 
 def test_a_contact_with_bodies_and_the_error_of_a_grid_have_units_and_few_digits() -> None:

@@ -201,7 +201,7 @@ def test_the_command_names_the_run_with_the_same_bits() -> None:
 
 @pytest.mark.parametrize("delay", ["1", "2"])
 def test_the_wall_with_the_papers_drive_has_the_verdict_of_an_ideal_one(delay: str) -> None:
-    from ebac._util.formatting import verdict
+    from ebac._util.verdicts import verdict
 
     scenario = ebac.Scenario(timing=ebac.Timing(delay=int(delay)))
     for law in ("tca", "eba", "ebac"):

@@ -1,4 +1,4 @@
-"""What people read: numbers with units, a scenario in one line, a contact in words."""
+"""What people read: numbers with units, a scenario in one line."""
 
 from __future__ import annotations
 
@@ -20,7 +20,6 @@ from ebac._core import (
 )
 
 if TYPE_CHECKING:
-    from ebac.metrics import Contact
     from ebac.scenario import Environment, Scenario
 
 #: SI unit: factor, unit shown, decimals.
@@ -43,9 +42,6 @@ OF_CONTACT = {"rest_m", "ideal_m", "deviation_m", "allowed_m", "depth_m", "deepe
 QUANTITY_OF = {"m": "position", "m/s": "velocity", "N": "force", "N/m": "stiffness", "J": "energy", "W": "power",
                "A": "current"}  # fmt: skip
 
-#: A shorter run has no end at which to judge rest and swing [s].
-JUDGED_FROM = 0.5
-
 
 def quantity(value: float | None, unit: str, *, signed: bool = False, none: str = "-") -> str:
     """Return a number with its unit as people read it: 0.00123 m is "1.230 mm".
@@ -65,7 +61,7 @@ def quantity(value: float | None, unit: str, *, signed: bool = False, none: str 
     if value is None or not isfinite(value):
         return none
     if unit == "threshold":
-        value, unit = _felt(value), "1"
+        value, unit = vibration_shown(value), "1"
     factor, shown, decimals = SHOWN.get(unit, (1, "" if unit == "1" else unit, 3))
     more = 1 if unit in ("m", "J") else 3
     text = _number(value * factor, decimals, more, signed, exact=unit not in SHOWN)
@@ -89,7 +85,8 @@ def listed(title: str, result: Any, lines: Iterable[tuple[str, str, str, str]]) 
     return "\n".join([title, *shown])
 
 
-def _felt(vibration: float) -> float:
+def vibration_shown(vibration: float) -> float:
+    """Return a vibration [detection thresholds]; 0 where it is next to none."""
     return vibration if vibration >= LEAST_VIBRATION else 0.0
 
 
@@ -257,46 +254,3 @@ def _material(material: Any) -> str:
     if kind == "HuntCrossley":
         return "soft after Hunt and Crossley"
     return f"{len(material.layers)} layers of tissue"
-
-
-def verdict(contact: Contact) -> str:
-    """Return what a contact came to: "exact and quiet", "swings", "quiet, too deep by 5.63 mm".
-
-    One that is still and not quiet has a force that is not: "exact, force not quiet". "moves with the hand" where the
-    hand's target has not come to rest either. "no contact" where
-    the virtual world never acted, "left the surface: no contact at rest" where it acts no more at rest, "too short to
-    judge" for less than half a second.
-    """
-    if contact.touched is False:
-        return "no contact"
-    if contact.seconds is not None and contact.seconds < JUDGED_FROM:
-        return "too short to judge"
-    if contact.touched_at_rest is False:
-        return "left the surface: no contact at rest"
-    if not contact.still:
-        return "moves with the hand" if contact.with_hand else "swings"
-    deviation = contact.deviation_m
-    if deviation is None:
-        return "quiet" if contact.quiet else "force not quiet"
-    if contact.exact:
-        return "exact and quiet" if contact.quiet else "exact, force not quiet"
-    where = "too deep" if deviation > 0 else "not deep enough"
-    away = f"{where} by {1e3 * abs(deviation):.3g} mm"
-    return f"quiet, {away}" if contact.quiet else f"{away}, force not quiet"
-
-
-def force_verdict(
-    quiet: bool, settled_s: float | None, jumps: float, perceived: float | None
-) -> str:
-    """Return what the force of a contact came to: "not quiet: settled 2.994 s, 338 jumps, vibration 19.8 thresholds".
-
-    The vibration is in detection thresholds, as `Contact.perceived`.
-    """
-    settled = quantity(settled_s, "s", none="never")
-    counted = "no jump" if jumps == 0 else f"{jumps:.0f} jump{'s' if jumps > 1 else ''}"
-    vibration = "not known"
-    if perceived is not None and isfinite(perceived):
-        vibration = f"{_felt(perceived):.3g} thresholds"
-    return (
-        f"{'quiet' if quiet else 'not quiet'}: settled {settled}, {counted}, vibration {vibration}"
-    )

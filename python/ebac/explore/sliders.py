@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ebac._core import Wall
-from ebac._util import formatting
+from ebac._util import formatting, verdicts
 from ebac._util.arguments import number, require, unknown
 from ebac.metrics import contact
 from ebac.scenario import Scenario
@@ -238,7 +238,7 @@ def sliders(
             else:
                 measured = contact(trace)
                 rest = formatting.quantity(measured.deviation_m, "m", signed=True)
-                verdict = f"{formatting.verdict(measured)}; rests {rest} from the ideal wall"
+                verdict = f"{verdicts.verdict(measured)}; rests {rest} from the ideal wall"
             with self.hold_sync():
                 self.error, self.verdict = "", verdict
                 self.trace, self.picture = trace, picture(trace)

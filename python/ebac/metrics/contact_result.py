@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import asdict, dataclass
 
-from ebac._util import formatting
+from ebac._util import formatting, verdicts
 
 #: Numbers of a contact that are no keys of `ebac wall --json`.
 MORE = (
@@ -179,12 +179,12 @@ class Contact:
     @property
     def verdict(self) -> str:
         """The verdict in words: "exact and quiet", "swings", "moves with the hand", "no contact"."""
-        return formatting.verdict(self)
+        return verdicts.verdict(self)
 
     @property
     def force_verdict(self) -> str:
         """The verdict on its force in words: "not quiet: settled 2.994 s, 338 jumps, vibration 19.8 thresholds"."""
-        return formatting.force_verdict(
+        return verdicts.force_verdict(
             self.force_quiet, self.force_settled_s, self.jumps, self.perceived
         )
 

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ebac import _core
-from ebac._util import formatting, row_files
+from ebac._util import row_files, verdicts
 from ebac._util.arguments import require_path
 from ebac.laws import design
 from ebac.operators import Operators
@@ -258,5 +258,5 @@ def _why(run: dict[str, Any]) -> str:
         return f"swings by {swing:.3g} mm"
     if not run["quiet"]:
         numbers = (run[name] for name in ("force_quiet", "force_settled_s", "jumps", "perceived"))
-        return f"force {formatting.force_verdict(*numbers)}"
+        return f"force {verdicts.force_verdict(*numbers)}"
     return f"rests {abs(away):.3g} mm {'too deep' if away > 0 else 'not deep enough'}"

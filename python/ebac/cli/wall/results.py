@@ -230,8 +230,8 @@ def _lines(lines: Lines, columns: Mapping[str, object]) -> Table:
 
 
 def _verdict(contact: Contact) -> str:
-    from ebac._util import formatting
+    from ebac._util import verdicts
 
-    words = re.sub(r" (?=by|with|and|not quiet)|(?<=[,:]) ", "\n", formatting.verdict(contact))
+    words = re.sub(r" (?=by|with|and|not quiet)|(?<=[,:]) ", "\n", verdicts.verdict(contact))
     good = contact.quiet and contact.exact is not False and contact.touched_at_rest is not False
     return f"[{'green' if good else 'yellow' if contact.still else 'red'}]{words}[/]"

@@ -1,0 +1,57 @@
+"""What a contact and its force came to, in words."""
+
+from __future__ import annotations
+
+from math import isfinite
+from typing import TYPE_CHECKING
+
+from ebac._util.formatting import quantity, vibration_shown
+
+if TYPE_CHECKING:
+    from ebac.metrics import Contact
+
+#: A shorter run has no end at which to judge rest and swing [s].
+JUDGED_FROM = 0.5
+
+
+def verdict(contact: Contact) -> str:
+    """Return what a contact came to: "exact and quiet", "swings", "quiet, too deep by 5.63 mm".
+
+    One that is still and not quiet has a force that is not: "exact, force not quiet". "moves with the hand" where the
+    hand's target has not come to rest either. "no contact" where
+    the virtual world never acted, "left the surface: no contact at rest" where it acts no more at rest, "too short to
+    judge" for less than half a second.
+    """
+    if contact.touched is False:
+        return "no contact"
+    if contact.seconds is not None and contact.seconds < JUDGED_FROM:
+        return "too short to judge"
+    if contact.touched_at_rest is False:
+        return "left the surface: no contact at rest"
+    if not contact.still:
+        return "moves with the hand" if contact.with_hand else "swings"
+    deviation = contact.deviation_m
+    if deviation is None:
+        return "quiet" if contact.quiet else "force not quiet"
+    if contact.exact:
+        return "exact and quiet" if contact.quiet else "exact, force not quiet"
+    where = "too deep" if deviation > 0 else "not deep enough"
+    away = f"{where} by {1e3 * abs(deviation):.3g} mm"
+    return f"quiet, {away}" if contact.quiet else f"{away}, force not quiet"
+
+
+def force_verdict(
+    quiet: bool, settled_s: float | None, jumps: float, perceived: float | None
+) -> str:
+    """Return what the force of a contact came to: "not quiet: settled 2.994 s, 338 jumps, vibration 19.8 thresholds".
+
+    The vibration is in detection thresholds, as `Contact.perceived`.
+    """
+    settled = quantity(settled_s, "s", none="never")
+    counted = "no jump" if jumps == 0 else f"{jumps:.0f} jump{'s' if jumps > 1 else ''}"
+    vibration = "not known"
+    if perceived is not None and isfinite(perceived):
+        vibration = f"{vibration_shown(perceived):.3g} thresholds"
+    return (
+        f"{'quiet' if quiet else 'not quiet'}: settled {settled}, {counted}, vibration {vibration}"
+    )
