@@ -172,7 +172,7 @@ def design(
         A name of `LAWS`, a class of the core or a `Variant` is designed from `device` and `timing`, never from the
         wall or the hand. A finished law comes back as it is. "tca-damped-tuned" is `tca-damped` with what
         `ebac tune` found for the reference device and the nearest delay; "tca-damped-tuned-observer" with what it found
-        for a law that acts on the estimate, `Scenario(observer="every-law")`.
+        for a law that acts on the observer's estimate, as it then does.
     device : Device or DeviceFacts
         What a user can know of the device.
     timing : Timing

@@ -16,7 +16,7 @@ from ebac._util.kept_law import KeptLaw, law_error
 from ebac.laws import AnyLaw, CoreLaw, PythonLaw, design, law_name
 from ebac.scenario import Scenario
 from ebac.trace import Trace
-from ebac.tuned_laws import warn_without_observer
+from ebac.tuned_laws import on_its_observer
 
 __all__ = [
     "LoopFault",
@@ -137,7 +137,7 @@ def simulate(
     -----
     UserWarning
         When the process data would take over 70 % of the bus: 1 Mbit/s, or that of `bus`; when an engine's models
-        were so old that their force faded; for a law "...-tuned-observer" without `Scenario(observer="every-law")`.
+        were so old that their force faded.
 
     Raises
     ------
@@ -155,7 +155,7 @@ def simulate(
         require(bus, _core.TimedBus, "ebac.simulate", "a TimedBus")
         if through is None:
             raise ValueError("bus = a TimedBus without a bus to time: give through='can' as well")
-    warn_without_observer([law], [scenario.observer])
+    scenario = on_its_observer(scenario, law)
     if through is not None:
         scenario = on_bus(scenario, through, bus)
     finished = design(law, scenario.device, scenario.known_timing, **changes)

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable
 from functools import cache
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from ebac._util.remarks import remark
+if TYPE_CHECKING:
+    from ebac.laws import AnyLaw
+    from ebac.scenario import Scenario
 
 
 @cache
@@ -33,31 +34,35 @@ def tuned_text(name: str) -> str:
     """Return what a law of `tuned_laws` is, in a sentence without its full stop."""
     law, _, end = name.partition("-tuned")
     text = f"{name} is {law} with the parameters that `ebac tune` found for the reference device at 1 kHz"
-    how = ', acting on the observer\'s estimate: use it with Scenario(observer="every-law")'
-    return text + (how if end else "")
+    return text + (", acting on the observer's estimate" if end else "")
 
 
-def warn_without_observer(laws: Iterable[Any], observers: Iterable[Any]) -> None:
-    """Warn of laws that were tuned for the observer where not every law acts on it.
+def on_its_observer(scenario: Scenario, law: AnyLaw) -> Scenario:
+    """Return a scenario in which a law acts on the observer's estimate, if its parameters were tuned so.
 
     Parameters
     ----------
-    laws : iterable of laws
-        As `simulate` takes them.
-    observers : iterable of bool, "every-law" or Observer
-        Of the scenarios that they are to run.
+    scenario : Scenario
+        Comes back as it is under any other law.
+    law : law
+        As `simulate` takes it.
+
+    Raises
+    ------
+    ValueError
+        For a law "...-tuned-observer" where the scenario turns the observer off.
     """
-    names = (getattr(law, "law", law) for law in laws)  # of a Variant, too
-    known = {n for n in names if isinstance(n, str) and n.endswith(_OBSERVED) and n in tuned_laws()}
-    if known and not all(_for_every_law(one) for one in observers):
-        remark("; ".join(tuned_text(name) for name in sorted(known)))
-
-
-def _for_every_law(observer: Any) -> bool:
-    """Return whether every law acts on an observer of a scenario."""
-    if isinstance(observer, (bool, str)):
-        return observer == "every-law"
-    return bool(observer.every_law)
+    name = getattr(law, "law", law)  # of a Variant, too
+    if not isinstance(name, str) or not name.endswith(_OBSERVED) or name not in tuned_laws():
+        return scenario
+    if not scenario.observer:
+        raise ValueError(
+            f"{name}: acts on the estimate of the state observer, which is off; turn it on with observer=True, or use "
+            f"{name.removesuffix('-observer')}"
+        )
+    if isinstance(scenario.observer, bool | str):
+        return scenario.replace(observer="every-law")
+    return scenario.replace(observer=scenario.observer.replace(every_law=True))
 
 
 #: How the names of laws end that were tuned for the observer.

@@ -2,7 +2,6 @@
 
 import json
 import math
-import warnings
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -15,7 +14,7 @@ import ebac
 from ebac.cli import app
 from ebac.laws import design
 from ebac.studies import TuningInterrupted, tune, tuning
-from ebac.tuned_laws import tuned, tuned_laws, tuned_text
+from ebac.tuned_laws import tuned, tuned_laws
 
 FEW = ebac.Operators.sample(3, 5)
 #: What the package has, by the ending of the laws' names.
@@ -181,52 +180,64 @@ def test_a_delay_that_was_not_searched_takes_the_nearest() -> None:
     assert changed.kp == 0.25  # type: ignore[union-attr]
 
 
-def without_observer(law: Any, base: ebac.Scenario) -> list[str]:
-    """Return the files in which a study and a simulation of a law warn, after a look at the text."""
-    files = []
+def test_a_law_that_is_tuned_for_the_observer_acts_on_it_by_itself() -> None:
+    name, short = "tca-damped-tuned-observer", ebac.Scenario(seconds=0.3)
+    design = ebac.Observer.of(short.device, short.timing)
+    for law in (name, ebac.Variant(name, {"kp": 0.1})):
+        wanted = ebac.simulate(short.replace(observer="every-law"), law)
+        for observer in (True, design, design.replace(every_law=True)):
+            trace = ebac.simulate(short.replace(observer=observer), law)
+            assert trace["x"].tobytes() == wanted["x"].tobytes()
+    encoder = ebac.simulate(short, "tca-damped-tuned")
+    assert encoder.scenario == short
+    assert encoder["x"].tobytes() != wanted["x"].tobytes()
+
+
+def test_a_study_gives_each_law_its_own_use_of_the_observer() -> None:
+    names = ["tca-damped-tuned", "tca-damped-tuned-observer", "ebac"]
+    together = ebac.study(FEW, names, ["d1K20"], base=NOISY.replace(seconds=1.5))
+    every = ebac.study(
+        FEW, names[1], ["d1K20"], base=NOISY.replace(seconds=1.5, observer="every-law")
+    )
+    mine = together.columns["law"] == names[1]
+    for column in ("rest_m", "least_energy_J", "settled_s"):
+        assert np.array_equal(together.columns[column][mine], every.columns[column], equal_nan=True)
+    run = int(np.flatnonzero(mine)[0])
+    assert together.trace(run)["x"].tobytes() == every.trace(0)["x"].tobytes()
+
+
+def test_without_an_observer_a_law_tuned_for_it_is_refused() -> None:
+    name, bare = "tca-damped-tuned-observer", ebac.Scenario(seconds=0.1, observer=False)
     calls: list[Callable[[], Any]] = [
-        lambda: ebac.study(FEW[:1], [law, "ebac"], ["d1K10", "d1K20"], base=base),
-        lambda: ebac.simulate(base, law),
+        lambda: ebac.simulate(bare, name),
+        lambda: ebac.study(FEW[:1], [name, "ebac"], ["d1K10"], base=bare),
+        lambda: ebac.worst(name, base=bare),
     ]
     for call in calls:
-        with warnings.catch_warnings(record=True) as caught:
-            warnings.simplefilter("always")
+        with pytest.raises(ValueError, match="observer, which is off; turn it on with observer=T"):
             call()
-        assert len(caught) <= 1  # once a call
-        for one in caught:
-            assert one.category is UserWarning
-            assert str(one.message) == tuned_text("tca-damped-tuned-observer")
-            assert 'use it with Scenario(observer="every-law")' in str(one.message)
-            files.append(one.filename)
-    return files
 
 
-def test_a_law_that_is_tuned_for_the_observer_warns_without_it() -> None:
-    name, short = "tca-damped-tuned-observer", ebac.Scenario(seconds=0.1)
-    assert without_observer(name, short) == [__file__] * 2
-    assert without_observer(ebac.Variant(name, {"kp": 0.1}), short) == [__file__] * 2
-    for given in (
-        "every-law",
-        ebac.Observer.of(short.device, short.timing).replace(every_law=True),
-    ):
-        assert without_observer(name, short.replace(observer=given)) == []
-    assert without_observer("tca-damped-tuned", short) == []
-
-
-def test_a_command_prints_a_note_in_place_of_the_warning() -> None:
-    words = "study --law tca-damped-tuned-observer --seconds 0.1 --no-files --json"
-    done = CliRunner().invoke(app, [*words.split(), "--population", "random", "--hands", "1"])
-    assert done.exit_code == 0, done.output  # a warning is an error here
-    assert done.stderr.count("use it with --observer-every-law") == 1
+@pytest.mark.parametrize(
+    "words",
+    ["study --seconds 0.1 --no-observer -c d1K10", "run joystick.toml --virtual"],
+)
+def test_a_command_says_how_to_turn_the_observer_on(
+    words: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    CliRunner().invoke(app, ["demo", "joystick"])
+    done = CliRunner().invoke(app, [*words.split(), "--law", "tca-damped-tuned-observer"])
+    assert done.exit_code == 2
+    assert "turn it on with --observer, or use tca-damped-tuned" in " ".join(done.stderr.split())
 
 
 @pytest.mark.parametrize("ending", TABLES)
 def test_the_tables_hold_what_their_laws_do_today(ending: str) -> None:
     """Where a law or a measure has changed: the commands of docs/explanation/rivals.md."""
     (row,) = (r for r in TABLES[ending] if r["law"] == "tca-damped" and r["delay"] == 1)
-    base = NOISY.replace(observer="every-law" if row["observer"] else True)
     law = f"tca-damped{ending}"
-    found = ebac.study(ebac.Operators.grid(), law, ["d1K20"], base=base).rows[0]
+    found = ebac.study(ebac.Operators.grid(), law, ["d1K20"], base=NOISY).rows[0]
     (then,) = (one for one in row["test"] if one["condition"] in ("d1K20", "d1b2K20"))
     assert found.good == then["good"]
     assert found.least_energy_J == pytest.approx(then["least_energy_J"], abs=1e-3)

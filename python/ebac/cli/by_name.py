@@ -43,11 +43,11 @@ def law_names(given: Sequence[str], option: str = "--law") -> list[str]:
 
 def _tell_tuned(names: Sequence[str]) -> None:
     """Say on stderr what a law with tuned parameters is."""
-    from ebac.cli import by_option, output
+    from ebac.cli import output
     from ebac.tuned_laws import tuned_text
 
     for name in names:
-        output.note(by_option.in_options(tuned_text(name)))
+        output.note(tuned_text(name))
 
 
 def _words(given: Sequence[str], option: str) -> list[str]:

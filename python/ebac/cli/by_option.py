@@ -42,7 +42,7 @@ current: dict[str, str] = {}
 def in_options(message: str) -> str:
     """Return what the library says of a value, by the name of the option that gave it."""
     message = message.replace("resume=False", "--force instead of --resume")
-    message = message.replace('Scenario(observer="every-law")', "--observer-every-law")
+    message = message.replace("observer=True", "--observer")
     message = re.sub(r"""columns=\{'(\w+)': (['"])(.*?)\2\}""", _column, message)
     for pattern in (r"(?:[\w ]+: )?([A-Za-z_.]+)(?= ?= )", r"(?:[a-z_]+: )?([a-z_]+)(?= \S+: )"):
         found = re.match(pattern, message)

@@ -16,6 +16,7 @@ from ebac.gastroscope.lumen import Lumen
 from ebac.laws import AnyLaw, CoreLaw, design, law_name
 from ebac.presets import DEVICES
 from ebac.scenario import Scenario
+from ebac.tuned_laws import on_its_observer
 
 if TYPE_CHECKING:
     from ebac.trace import Trace
@@ -252,7 +253,7 @@ def gastroscopy(
     if not 1 <= every <= 10000:
         raise ValueError(f"every = {every}: must lie in [1, 10000]")
     given = Procedure() if procedure is None else procedure
-    scenario = given.scenario()
+    scenario = on_its_observer(given.scenario(), law)
     made: Any = core_law(law, scenario)
     made = made.replace(**changes) if changes else made
     findings, rows = _core._run_procedure(given.core(), scenario.setup(), made, every)

@@ -16,6 +16,7 @@ from ebac._util.arguments import number, several, whole
 from ebac._util.background import Background
 from ebac.gastroscope.procedure import Procedure, core_law
 from ebac.laws import AnyLaw, law_name
+from ebac.tuned_laws import on_its_observer
 
 #: Difference of forces for which the power is stated [N].
 MATTERS = 1.0
@@ -186,7 +187,7 @@ def gastroscopy_study(
         master: Master = base.master.replace(delay=delay, feedback=gain if feedback else 0.0)
         for person in people:
             own = replace(person, master=master)
-            scenario = own.scenario()
+            scenario = on_its_observer(own.scenario(), law)
             todo.append((own.core(), scenario.setup(), core_law(law, scenario)))
     columns = _run(todo, threads, progress)
     runs = {

@@ -24,6 +24,7 @@ from ebac.hardware.tables import ConfigurationError
 from ebac.hardware.zero import Zero
 from ebac.laws import CoreLaw
 from ebac.scenario import Environment, Scenario
+from ebac.tuned_laws import on_its_observer
 
 if TYPE_CHECKING:
     from ebac._core import TimedBus
@@ -208,7 +209,7 @@ class Configuration:
         """
         if seconds is not None:
             check_seconds(seconds)
-        return Scenario(
+        made = Scenario(
             device=self.device,
             hand=self.hand,
             environment=self.environment,
@@ -216,6 +217,7 @@ class Configuration:
             seconds=self.seconds if seconds is None else seconds,
             observer=self.observer,
         )
+        return on_its_observer(made, self.law)
 
     def timed_bus(self) -> TimedBus:
         """Return the simulated bus, with bit rate, monitors and waiting time as configured."""

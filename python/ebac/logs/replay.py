@@ -14,6 +14,7 @@ from ebac._util.kept_law import KeptLaw, law_error
 from ebac.laws import AnyLaw, CoreLaw, design, law_name
 from ebac.logs.log import Log
 from ebac.logs.sensor_rows import force_age, force_status
+from ebac.tuned_laws import on_its_observer
 
 if TYPE_CHECKING:
     from ebac._core import Device
@@ -87,6 +88,7 @@ def replay(
             "replay: the log has no scenario, so device and virtual world are unknown; give scenario=..."
         )
     _check(recorded)
+    scenario = on_its_observer(scenario, law)
     source = _source(recorded, scenario.device)
     source.observer = scenario.designed_observer()
     finished = design(law, scenario.device, scenario.known_timing, **changes)

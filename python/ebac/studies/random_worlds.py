@@ -13,7 +13,7 @@ import numpy as np
 
 from ebac._util.arguments import named, require, several, whole
 from ebac._util.cores import usable_cores
-from ebac.laws import CoreLaw, PythonLaw, design, reserve_of
+from ebac.laws import AnyLaw, CoreLaw, PythonLaw, design, reserve_of
 from ebac.metrics.energy_drawn import drawn
 from ebac.scenario import Scenario
 from ebac.studies.hand_search import every_row
@@ -22,6 +22,7 @@ from ebac.studies.random_worlds_result import HELD_BACK, HandRun, RandomWorldRow
 from ebac.studies.sweeps.job import Progress
 from ebac.studies.sweeps.run import Laws, name_laws
 from ebac.studies.world_kinds import KINDS
+from ebac.tuned_laws import on_its_observer
 
 #: Stiffnesses of the surfaces [N/m] and delays [samples] unless others are given.
 STIFFNESSES, DELAYS = (10e3,), (1,)
@@ -117,7 +118,7 @@ def random_worlds(
     with _threads(workers) as executor:
         for cell, make, first, ready in zip(cells, makers, firsts, made, strict=True):
             for name, law in ready.items():
-                measured = partial(_measured, make, law)
+                measured = partial(_measured, make, law, chosen[name])
                 spread = executor.map if isinstance(law, CoreLaw) else map
                 runs: list[HandRun] = []
                 for run in spread(measured, range(hands)):
@@ -152,8 +153,10 @@ def _indexed(kind: str, device: str, how: dict[str, Any], index: int) -> Scenari
     return random_scenario(kind, device, index, **how)
 
 
-def _measured(make: Callable[[int], Scenario], law: CoreLaw | PythonLaw, index: int) -> HandRun:
-    trace = every_row(make(index), law)
+def _measured(
+    make: Callable[[int], Scenario], law: CoreLaw | PythonLaw, given: AnyLaw, index: int
+) -> HandRun:
+    trace = every_row(on_its_observer(make(index), given), law)
     held = float(trace["law.starved"].max()) if _guarded(law) else None
     touched = bool(trace["f_env"].any())
     return HandRun(held, drawn(trace), bool(trace["fault"].any()), touched)

@@ -13,6 +13,7 @@ from ebac.scenario import Scenario
 from ebac.studies.hand_search import every_row
 from ebac.studies.random_scenario import random_scenario
 from ebac.trace import Trace
+from ebac.tuned_laws import on_its_observer
 
 #: A hand that the guard holds back for longer than this is counted [s].
 HELD_BACK = 0.1
@@ -152,10 +153,9 @@ class RandomWorlds:
 
     def trace(self, row: RandomWorldRow, hand: int | None = None) -> Trace:
         """Simulate a hand of a row again, by default its worst, with every row up to a fault."""
-        scenario = self.scenario(row, hand)
-        return every_row(
-            scenario, design(self.laws[row.law], scenario.device, scenario.known_timing)
-        )
+        law = self.laws[row.law]
+        scenario = on_its_observer(self.scenario(row, hand), law)
+        return every_row(scenario, design(law, scenario.device, scenario.known_timing))
 
     def __repr__(self) -> str:
         """Return the rows with their units."""

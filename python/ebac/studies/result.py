@@ -22,6 +22,7 @@ from ebac.studies.conditions import Condition
 from ebac.studies.sweeps.measure import Columns
 from ebac.studies.sweeps.result import SweepResult
 from ebac.trace import Trace
+from ebac.tuned_laws import on_its_observer
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -179,9 +180,10 @@ class Study:
     def trace(self, run: int) -> Trace:
         """Simulate one run again, with every row; a run that stopped on a fault gives its rows too."""
         place = run % len(self.scenarios)
-        law = design(self.laws[str(self.columns["law"][run])], *self.designed_for[place])
+        law = self.laws[str(self.columns["law"][run])]
+        scenario = on_its_observer(self.scenarios[place], law)
         try:
-            return simulate(self.scenarios[place], law)
+            return simulate(scenario, design(law, *self.designed_for[place]))
         except LoopFault as fault:
             return fault.trace
 

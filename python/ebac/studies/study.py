@@ -58,11 +58,6 @@ def study(
     Returns
     -------
     Study
-
-    Warns
-    -----
-    UserWarning
-        For a law "...-tuned-observer" where `base` is not a scenario with `observer="every-law"`.
     """
     require(population, Operators, "ebac.study", "a population, an Operators")
     chosen = tuple(find(conditions))

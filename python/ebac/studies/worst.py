@@ -18,6 +18,7 @@ from ebac.studies.hand_search import HandSearch, WorstHand, every_row
 from ebac.studies.scenario_changes import truth
 from ebac.studies.sweeps.job import Progress
 from ebac.trace import Trace
+from ebac.tuned_laws import on_its_observer
 
 #: Runs per family, unless others are asked for; fewer find less.
 EVALUATIONS = 2000
@@ -153,7 +154,7 @@ def worst(
         For a number out of range, a family or condition that does not exist, or a condition that changes the hand.
     """
     where = _condition(condition, base or Scenario())
-    scenario = where.made(where.change(base or Scenario()))
+    scenario = on_its_observer(where.made(where.change(base or Scenario())), law)
     made = design(law, *where.believed(scenario))
     declared = getattr(made, "pull", None)
     most = pull if pull is not None else declared or PULL

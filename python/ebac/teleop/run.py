@@ -16,6 +16,7 @@ from ebac.laws import AnyLaw, CoreLaw, design, law_name
 from ebac.scenario import Scenario
 from ebac.teleop import run_text
 from ebac.teleop.schemes import Scheme, chosen_scheme
+from ebac.tuned_laws import on_its_observer
 
 #: A stick that swings farther does not rest [m].
 NO_REST = 5e-3
@@ -215,7 +216,8 @@ def simulate(
     if given.device.axes != 1:
         raise ValueError(f"device: has {given.device.axes} axes; teleoperation has 1 so far")
     path = hand or Hand(path=[MinimumJerk(target=0.045, at=1.2, duration=0.8)])
-    setup = given.replace(environment=Free(), hand=path, seconds=seconds, seed=seed).setup()
+    full = given.replace(environment=Free(), hand=path, seconds=seconds, seed=seed)
+    setup = on_its_observer(full, law or chosen.law).setup()
     made = design(law or chosen.law, given.device, given.known_timing)
     if not isinstance(made, CoreLaw):
         raise TypeError(f"law = {made!r}: must be a law of the core, not one written in Python")

@@ -90,7 +90,7 @@ def _show_all(rows: list[dict[str, Any]]) -> None:
     output.say(f"Tuned: {', '.join(tuned_laws())}.")
     output.say(
         "LAW-tuned is LAW with the parameters that `ebac tune` found for the reference device at 1 kHz; "
-        "LAW-tuned-observer the same for use with --observer-every-law."
+        "LAW-tuned-observer the same acting on the observer's estimate."
     )
     output.say("`ebac laws NAME` shows one in detail.")
 

@@ -73,7 +73,7 @@ def tune(
     the law uses the estimate of the observer, otherwise the encoder. Ctrl-C keeps the best parameters so far.
 
     The parameters found for the reference device, with 0.03 N of sensor noise, are part of the package under names
-    such as `tca-damped-tuned`, and `tca-damped-tuned-observer` for use with --observer-every-law.
+    such as `tca-damped-tuned` and, acting on the observer's estimate, `tca-damped-tuned-observer`.
 
     **Examples**
 

@@ -19,7 +19,7 @@ from ebac.studies.sweeps.measure import Columns, Run
 from ebac.studies.sweeps.parameters import swept
 from ebac.studies.sweeps.result import SweepResult
 from ebac.studies.sweeps.store import Store, fingerprint
-from ebac.tuned_laws import warn_without_observer
+from ebac.tuned_laws import on_its_observer
 
 Laws: TypeAlias = AnyLaw | Sequence[AnyLaw] | Mapping[str, AnyLaw]
 Known: TypeAlias = tuple[Device | DeviceFacts, Timing]
@@ -84,11 +84,6 @@ def sweep(
     SweepResult
         len(laws) x n rows.
 
-    Warns
-    -----
-    UserWarning
-        For a law "...-tuned-observer" where a scenario is not one with `observer="every-law"`.
-
     Raises
     ------
     SweepInterrupted
@@ -101,7 +96,6 @@ def sweep(
     require(limits, (RunLimits, NoneType), "ebac.sweep", wanted)
     _check(scenarios, seed=seed, threads=threads, bundle=bundle, designed_for=designed_for)
     named = name_laws(laws)
-    warn_without_observer(named.values(), (s.observer for s in scenarios))
     if progress is not None:
         progress(0, len(named) * len(scenarios))  # before the designs, which take seconds of many
     if seed is not None:
@@ -111,7 +105,10 @@ def sweep(
     runs: list[Run] = []
     for law in named.values():
         made = [design(law, device, timing) for device, timing in distinct]
-        runs += [(one, made[place]) for one, place in zip(scenarios, places, strict=True)]
+        runs += [
+            (on_its_observer(one, law), made[place])
+            for one, place in zip(scenarios, places, strict=True)
+        ]
     job = Job(runs, limits or RunLimits(), threads, progress or (lambda done, total: None))
     size = bundle or _bundle(len(runs), shared=executor is not None, stored=out is not None)
     store = None
