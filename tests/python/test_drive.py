@@ -10,6 +10,7 @@ import threading
 import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
+from typing import Any
 
 import can
 import pytest
@@ -17,7 +18,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from ebac import _core, drives
-from ebac.drives import Command, State
+from ebac.drives import Command, State, Statusword
 from ebac.drives.objects import known
 from ebac.drives.who_answers import naming_who_answers
 
@@ -214,6 +215,40 @@ def test_leaving_the_block_disables_whatever_happened(bus: drives.DriveBus) -> N
     with pytest.raises(ZeroDivisionError), bus.drive(1) as drive:  # noqa: PT012
         drive.enable()
         _ = 1 / 0
+    assert drive.state is State.SWITCH_ON_DISABLED
+
+
+def test_a_statusword_of_no_state_is_an_error_of_the_drive(
+    drive: drives.Drive, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(drives.Drive, "statusword", property(lambda _: Statusword(0x0203)))
+    with pytest.raises(drives.WrongAnswer, match="node 1: statusword = 0x0203: bits") as caught:
+        _ = drive.state
+    assert caught.value.node == 1
+
+
+@pytest.mark.parametrize(
+    "breaks", [Statusword(0x0205), KeyboardInterrupt()], ids=["word", "Ctrl-C"]
+)
+def test_whatever_breaks_in_when_a_drive_is_enabled_it_loses_its_power(
+    drive: drives.Drive, monkeypatch: pytest.MonkeyPatch, breaks: Any
+) -> None:
+    asked = drives.Drive.statusword.fget  # type: ignore[attr-defined]
+    broken: list[bool] = []
+
+    def once(self: drives.Drive) -> Statusword:
+        word = asked(self)
+        if State.of(word) is not State.OPERATION_ENABLED or broken:
+            return Statusword(word)
+        broken.append(True)
+        if isinstance(breaks, Statusword):
+            return breaks
+        raise breaks
+
+    monkeypatch.setattr(drives.Drive, "statusword", property(once))
+    with pytest.raises((drives.WrongAnswer, KeyboardInterrupt)):
+        drive.enable(mode=10)
+    assert broken
     assert drive.state is State.SWITCH_ON_DISABLED
 
 

@@ -12,6 +12,7 @@ import time
 from collections.abc import Callable
 from pathlib import Path
 from tempfile import TemporaryFile
+from typing import Any
 
 import numpy as np
 import pytest
@@ -25,6 +26,7 @@ from ebac.hardware import (
     OpenDevice,
     Run,
     Terminated,
+    backends,
     drives_subprocess,
     times,
     under_the_law,
@@ -138,6 +140,34 @@ def test_a_fault_is_one_exception_with_the_last_rows(tmp_path: Path) -> None:
     log = ebac.logs.read(tmp_path / "run.mcap")
     assert log.condition.complete
     assert [e.values["fault"] for e in log.events if e.kind == "fault"] == [14]
+
+
+def test_drives_that_go_away_leave_the_fault_and_the_rows(
+    monkeypatch: pytest.MonkeyPatch, until: Until
+) -> None:
+    served: list[Any] = []
+    at_work = backends.at_work
+
+    def kept(what: Any, *rest: Any) -> Any:
+        served.append(what)
+        return at_work(what, *rest)
+
+    monkeypatch.setattr(backends, "at_work", kept)
+    monkeypatch.setattr(backends, "virtual_can", lambda: None)
+    with ebac.Device.open(configuration(silent=20), simulate=True) as device:
+        run = device.start(seconds=30)
+        until(run, lambda: run.ticks > 300)
+        served[0].stop()
+        run.wait()
+        with pytest.raises(drives.DriveError, match="did not answer") as caught:
+            run.end()
+    fault = caught.value.__cause__
+    assert isinstance(fault, ebac.LoopFault)
+    assert fault.fault is ebac.Fault.DRIVE_SILENT
+    assert len(fault.trace) > 300
+    assert "fault 9 (drive silent)" in "".join(caught.value.__notes__)
+    assert run.report is not None
+    assert run.report.ended_by == "fault"
 
 
 def test_after_a_fault_a_run_wants_a_reset(device: OpenDevice) -> None:

@@ -214,6 +214,26 @@ def test_malformed_messages_by_the_thousand_do_not_reach_the_loop(server: Any) -
     assert not server.session.fault
 
 
+def test_a_release_acts_however_many_messages_come_before_it(
+    server: Any, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("ebac.live.server.MOST_MESSAGES", 5)
+    let_go: list[bool] = []
+    monkeypatch.setattr(server.session, "let_go", lambda: let_go.append(True))
+
+    async def opened() -> None:
+        async with socket(server) as page:
+            await until(page, "state", role="control")
+            for _ in range(20):
+                await page.send('{"kind": "hold"}')
+            await page.send('{"kind": "release"}')
+            async with asyncio.timeout(5):
+                while not let_go:
+                    await asyncio.sleep(0.01)
+
+    ask(opened)
+
+
 def test_values_out_of_range_are_answered_and_change_nothing(server: Any) -> None:
     before = server.session.choices
 

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 import ebac
+from ebac.drives import DriveError
 from ebac.live.choices import Choices, base_of, options
 from ebac.live.frames import Frames
 from ebac.live.intended_hand import IntendedHand
@@ -191,6 +192,23 @@ def test_a_closed_session_is_not_started_again(tmp_path: Path) -> None:
         with pytest.raises(RuntimeError, match="this session is closed: make a new one"):
             again()
     assert session.run is None
+
+
+def test_a_session_whose_run_ends_badly_lets_go_of_its_device(tmp_path: Path) -> None:
+    session = Session(folder=tmp_path)
+    session.start()
+    run = session.run
+    assert run is not None
+    power_off = run._power_off
+
+    def fail() -> list[str]:
+        power_off()
+        raise DriveError("node 1 did not answer")
+
+    run._power_off = fail
+    with pytest.raises(DriveError, match="did not answer"):
+        session.close()
+    assert session._device is None
 
 
 def test_whatever_goes_wrong_beside_it_the_dead_man_key_is_watched(tmp_path: Path) -> None:

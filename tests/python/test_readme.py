@@ -35,7 +35,12 @@ def test_the_table_is_what_the_study_gives() -> None:
         wall, timing = change.environment, change.timing
         assert isinstance(wall, ebac.Wall)
         assert f"{wall.stiffness / 1e3:g} kN/m, {timing.delay} sample" in still[0]
-        assert [row["law"] for row in rows] == ["tca", "tca-damped", "lag-compensator-tuned-observer", "ebac"]
+        assert [row["law"] for row in rows] == [
+            "tca",
+            "tca-damped",
+            "lag-compensator-tuned-observer",
+            "ebac",
+        ]
         assert still[1:] == [str(row["exact_and_still"]) for row in rows]
         assert good[1:] == [str(row["good"]) for row in rows]
         assert settled[1:] == [_seconds(row["median_settled_s"]) for row in rows]

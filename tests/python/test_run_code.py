@@ -116,6 +116,22 @@ def test_a_drive_that_keeps_its_power_is_told() -> None:
         run.end()
 
 
+def test_whatever_fails_at_the_end_the_log_is_closed_and_there_is_a_report() -> None:
+    def fail() -> list[str]:
+        raise ValueError("no state of CiA 402")
+
+    def close() -> None:
+        raise UserWarning("2 rows were lost")  # a warning where warnings are errors
+
+    recorder = SimpleNamespace(close=close, path=Path("run.mcap"), written=1, lost=2)
+    run, _ = bare_run(_power_off=fail, recorder=recorder)
+    with pytest.raises(ValueError, match="no state of CiA 402") as caught:
+        run.end()
+    assert caught.value.__notes__ == ["2 rows were lost"]
+    assert run.report is not None
+    assert run.report.lost_rows == 2
+
+
 def test_a_recorder_that_fails_ends_the_run() -> None:
     run, asked = bare_run(recorder=SimpleNamespace(error=OSError("disk full")))
     run.wait()

@@ -10,7 +10,7 @@ from typing import Self
 from ebac._util.exception_notes import noted_on
 from ebac._util.wrong_calls import plain_constructor
 from ebac.drives import faults
-from ebac.drives.errors import DriveError, DriveFault, WrongAnswer, WrongState
+from ebac.drives.errors import DriveFault, WrongAnswer, WrongState
 from ebac.drives.node import Node
 from ebac.drives.state import AUTOMATIC, Command, State, Statusword, path
 
@@ -46,8 +46,11 @@ class Drive(Node):
 
     @property
     def state(self) -> State:
-        """The state, asked for now."""
-        return State.of(self.statusword)
+        """The state, asked for now. Raises WrongAnswer for a statusword of no state."""
+        try:
+            return State.of(self.statusword)
+        except ValueError as error:
+            raise WrongAnswer(f"node {self.node}: {error}", node=self.node) from None
 
     def command(self, command: Command) -> None:
         """Write the controlword of a command. What follows is for `wait` to see."""
@@ -135,7 +138,7 @@ class Drive(Node):
         self.bus.check_alone([self.node])
         try:
             self.go(State.OPERATION_ENABLED, timeout=timeout)
-        except DriveError as error:
+        except BaseException as error:
             with noted_on(error, "and the drive could not be disabled"):
                 self.disable()
             raise

@@ -227,7 +227,8 @@ class OpenDevice:
             When an axis stands outside the workspace or the handle inside the virtual world, or on real drives
             `confirm_zero` was not called.
         DriveError, OSError
-            When a drive does not carry out a command, or the log cannot be written.
+            When a drive does not carry out a command, or the log cannot be written. Where the loop had ended by a
+            fault, its `LoopFault` is the `__cause__`.
         KeyboardInterrupt, Terminated
             When the process received a signal; everything is stopped before this is raised.
         """

@@ -27,8 +27,11 @@ PATIENT = {
 BY_MOTION = frozenset({Fault.ENCODER_JUMP, Fault.OVERSPEED})
 
 
-def loop_fault(fault: Fault, trace: Trace) -> LoopFault:
-    """Return the error of a loop that ended by a fault, with a note where it was late."""
+def loop_fault(trace: Trace) -> LoopFault | None:
+    """Return the error of a loop that ended by a fault, with a note where it was late; None without a fault."""
+    fault = Fault(int(trace["fault"][-1])) if len(trace) else Fault.NONE
+    if fault is Fault.NONE:
+        return None
     error = LoopFault(fault, trace)
     if late := lateness_of(fault, trace):
         error.add_note(f"the loop {late}; {remedy(fault)}")

@@ -14,7 +14,6 @@ from ebac import _core
 from ebac._util.exception_notes import noted_on
 from ebac._util.foreign_worlds import foreign
 from ebac._util.wrong_calls import plain_constructor
-from ebac.drives.errors import DriveError
 from ebac.hardware.current_parameters import CurrentParameters
 from ebac.hardware.interrupts import Interrupts, OfParent
 from ebac.hardware.lateness import loop_fault
@@ -145,9 +144,8 @@ class Run(RunChanges):
         """
         self.end()
         trace = self.trace()
-        fault = _core.Fault(int(trace["fault"][-1])) if len(trace) else _core.Fault.NONE
-        if fault is not _core.Fault.NONE:
-            raise loop_fault(fault, trace)
+        if fault := loop_fault(trace):
+            raise fault
         world = foreign(self._parameters.world)
         if world is not None and (remark := world.remark()):
             warnings.warn(remark, stacklevel=2)
@@ -156,7 +154,8 @@ class Run(RunChanges):
     def end(self) -> None:
         """End the loop, switch the power off and close the log. A second call does nothing.
 
-        Raises the same errors as `finish`, except `LoopFault`.
+        Raises the same errors as `finish`, except `LoopFault`: where the loop ended by one, it is the cause of the
+        error that is raised.
         """
         with self._lock:
             if self.report is not None:
@@ -172,12 +171,12 @@ class Run(RunChanges):
             drives: list[str] = []
             try:
                 drives = self._power_off()
-            except DriveError as error:
+            except Exception as error:
                 failures.append(error)
             if self.recorder is not None:
                 try:
                     self.recorder.close()
-                except OSError as error:
+                except Exception as error:
                     failures.append(error)
             self.report = Report.of(
                 self._running,
@@ -192,7 +191,11 @@ class Run(RunChanges):
             failures[0].add_note(str(other))
         if failures:
             self._interrupts.forget()
-            raise failures[0]
+            fault = None
+            if self._running.state is _core.LoopState.FAULT:
+                fault = loop_fault(self.trace())
+                failures[0].add_note(f"before that: {fault}")
+            raise failures[0] from fault
         self._interrupts.settled()
 
     def __enter__(self) -> Run:

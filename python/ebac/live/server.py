@@ -31,6 +31,8 @@ FRAME, SOON = 1 / 30, 1 / 60
 MOST_MALFORMED, MOST_MESSAGES = 100, 400
 #: Pages at a time.
 MOST_PAGES = 32
+#: Messages that end something, which are done however many came before them.
+ALWAYS = ("release", "pause")
 #: Messages that are done before the next one is read.
 AT_ONCE = ("hold", "release", "drag", "drop", "mode")
 
@@ -192,10 +194,10 @@ class Server:
                 count += 1
                 if self._loop.time() - begun > 1:
                     begun, count = self._loop.time(), 0
-                if count > MOST_MESSAGES:
-                    continue
                 try:
-                    await self._take(page, read(raw))
+                    message = read(raw)
+                    if count <= MOST_MESSAGES or message["kind"] in ALWAYS:
+                        await self._take(page, message)
                 except MalformedError as error:
                     bad, self.malformed = bad + 1, self.malformed + 1
                     if bad > MOST_MALFORMED:

@@ -179,9 +179,11 @@ class Session(SessionChanges):
         """End the run, close the log, let go of the device."""
         self._over.set()
         self._watch.join()
-        self.pause()
-        with self._lock:
-            self._close_device()
+        try:
+            self.pause()
+        finally:
+            with self._lock:
+                self._close_device()
 
     # --- its end ---
 
