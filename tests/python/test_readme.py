@@ -17,7 +17,7 @@ FIRST_WALL = README.parent / "docs/tutorials/first_wall.md"
 
 
 def table() -> list[list[str]]:
-    """Return the cells of the table of four laws, four rows of numbers for each wall."""
+    """Return the cells of the table of four laws, five rows of numbers for each wall."""
     rows = re.findall("^" + 5 * r"\|([^|]+)" + r"\|$", README.read_text(), re.M)
     return [[cell.strip() for cell in cells] for cells in rows][2:]
 
@@ -29,7 +29,7 @@ def test_the_table_is_what_the_study_gives() -> None:
     by_wall: dict[str, list[dict[str, Any]]] = {}
     for row in json.loads(result.stdout)["rows"]:
         by_wall.setdefault(row["condition"], []).append(row)
-    for (name, rows), place in zip(by_wall.items(), (0, 4), strict=True):
+    for (name, rows), place in zip(by_wall.items(), (0, 5), strict=True):
         still, good, settled, energy = table()[place : place + 4]
         change = find([name])[0].change(ebac.Scenario())
         wall, timing = change.environment, change.timing
@@ -45,6 +45,24 @@ def test_the_table_is_what_the_study_gives() -> None:
         assert good[1:] == [str(row["good"]) for row in rows]
         assert settled[1:] == [_seconds(row["median_settled_s"]) for row in rows]
         assert energy[1:] == [_energy(row["least_energy_J"]) for row in rows]
+
+
+@pytest.mark.slow
+@pytest.mark.weekly
+@pytest.mark.parametrize(("condition", "place"), [("d1K10", 4), ("d2K20", 9)])
+def test_the_worst_hands_of_the_table_are_those_that_are_found(condition: str, place: int) -> None:
+    what, *shown = table()[place]
+    assert what == "drawn by the worst hand of a search"
+    noisy = ebac.Scenario(device=ebac.Device(sensor=ebac.ForceSensor(noise=0.03)))
+    laws = ["tca", "tca-damped", "lag-compensator-tuned-observer", "ebac"]
+    drawn = [ebac.worst(law, condition, base=noisy).hands[0].energy_J for law in laws]
+    assert shown == [_drawn(joule) for joule in drawn]
+
+
+def _drawn(joule: float) -> str:
+    if joule >= 1:
+        return f"{joule:.1f} J"
+    return f"{1e3 * joule:.0f} mJ" if joule >= 0.01 else f"{1e3 * joule:.1f} mJ"
 
 
 def _seconds(value: float | None) -> str:
