@@ -21,7 +21,7 @@ SteppedRun::SteppedRun(const AnyLaw& law, Setup setup, const std::optional<can::
     : Running(law),
       dt_(setup.timing.dt),
       loop_(loop(law, with_ramp(std::move(setup), ramp_down), bus)) {
-  loop_.device().device().enable();
+  loop_.device().device().switch_on();
   trace_ = loop_.make_trace(rows, /*ring=*/true);
   loop_.start();
 }
@@ -56,7 +56,7 @@ void SteppedRun::aim(const std::array<double, kMaxAxes>& target) {
 
 void SteppedRun::switch_off() {
   const std::scoped_lock one_by_one(stepping_);
-  loop_.device().device().disable();
+  loop_.device().device().switch_off();
 }
 
 bool SteppedRun::wait(double seconds) {

@@ -139,11 +139,11 @@ TEST(ThroughCan, DrivesAreOffBeforeAndAfter) {
   auto device = can::device_through_can<SimulatedDevice>(brief());
   const auto state = [&] { return device.bench().joystick().drive(0).state(); };
   EXPECT_NE(state(), can::DriveState::kOperationEnabled);
-  device.enable();
+  device.switch_on();
   EXPECT_EQ(state(), can::DriveState::kOperationEnabled);
   static_cast<void>(device.exchange({.current = {1.0}, .elapsed = 1e-3}));
   EXPECT_GT(device.bench().joystick().drive(0).current(), 0.9);
-  device.disable();
+  device.switch_off();
   EXPECT_EQ(state(), can::DriveState::kSwitchOnDisabled);
   EXPECT_EQ(device.bench().joystick().drive(0).current(), 0);
 }
@@ -153,7 +153,7 @@ TEST(ThroughCan, AFaultOfARealDriveEndsTheRunAtRest) {
        {std::pair{can::Condition::kOverVoltage, Fault::kDriveEmergency},
         std::pair{can::Condition::kSilent, Fault::kDriveSilent}}) {
     auto device = can::device_through_can<SimulatedDevice>(brief());
-    device.enable();
+    device.switch_on();
     Loop loop(std::move(device), VirtualClock(1e-3, 0, 1),
               PerAxis<AnyLaw>(designed_law("direct", brief())),
               SignalChain(DeviceModel{}, Environment{Wall{.position = -0.01}}, {}), 1);

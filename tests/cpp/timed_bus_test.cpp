@@ -19,7 +19,7 @@ Setup two_axes() {
 Loop2 loop_on(const can::TimedBus& bus) {
   const Setup setup = two_axes();
   auto device = can::device_through_can<SimulatedDevice>(setup, bus);
-  device.enable();
+  device.switch_on();
   return {std::move(device), VirtualClock(1e-3, 0, 1), PerAxis<Direct>(Direct({}, setup.timing)),
           SignalChain(setup.device, Environment{Wall{.position = -0.01}}, {}), 2};
 }
@@ -57,7 +57,7 @@ TEST(TimedBus, OffTheBusMeansZeroForceAndDrivesAtRest) {
                 fault == Fault::kDriveEmergency)
         << static_cast<unsigned>(fault);
     for (std::size_t i = 0; i < 2; ++i) EXPECT_EQ(loop.sample().axis[i].joint.current, 0);
-    loop.device().disable();
+    loop.device().switch_off();
     EXPECT_TRUE(loop.device().bench().off());
   }
 }

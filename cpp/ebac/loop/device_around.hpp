@@ -14,17 +14,15 @@ template <Device D>
 class DeviceAround {
  public:
   void enable() EBAC_RT
-    requires requires(D& d) {
-      { d.enable() } noexcept;
-    }
+    requires requires(D& d) { d.enable(); }
   {
+    static_assert(noexcept(device_.enable()));
     device_.enable();
   }
   void disable() EBAC_RT
-    requires requires(D& d) {
-      { d.disable() } noexcept;
-    }
+    requires requires(D& d) { d.disable(); }
   {
+    static_assert(noexcept(device_.disable()));
     device_.disable();
   }
   void stop() EBAC_RT

@@ -69,10 +69,10 @@ class Loop {
   bool start() EBAC_RT {
     if (!run_state_.start()) return false;
     if (run_state_.plan().arm) {
-      if constexpr (requires {
-                      { device_.enable() } noexcept;
-                    })
+      if constexpr (requires { device_.enable(); }) {
+        static_assert(noexcept(device_.enable()));
         device_.enable();
+      }
     }
     return true;
   }
@@ -225,10 +225,10 @@ class Loop {
     if (sample_.fault != Fault::kNone) {
       if constexpr (requires { device_.stop(); }) device_.stop();
     } else {
-      if constexpr (requires {
-                      { device_.disable() } noexcept;
-                    })
+      if constexpr (requires { device_.disable(); }) {
+        static_assert(noexcept(device_.disable()));
         device_.disable();
+      }
     }
   }
 

@@ -42,10 +42,9 @@ class WithForceSensor : public DeviceAround<D> {
   }
 
   void enable() EBAC_RT
-    requires requires(D& d) {
-      { d.enable() } noexcept;
-    }
+    requires requires(D& d) { d.enable(); }
   {
+    static_assert(noexcept(device_.enable()));
     device_.enable();
     if constexpr (requires { sensor_.start(); }) sensor_.start();
     awaited_ = true;

@@ -66,7 +66,7 @@ inline double time_exchange(int ticks, int repeats) {
   DeviceModel model;
   model.kinematics = Linear{.axes = 2};
   ThroughCan<RestingPlant> device({}, model, Timing{});
-  device.enable();
+  device.switch_on();
   return time_exchanges(device, ticks, repeats);
 }
 

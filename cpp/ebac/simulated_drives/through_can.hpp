@@ -51,7 +51,7 @@ class ThroughCan {
   /// Enables the drives before the first tick, without time passing for the plant. Throws
   /// std::runtime_error with their fault when they do not come up; where the bus takes time,
   /// std::invalid_argument with its times.
-  void enable() {
+  void switch_on() {
     bench_->can().enable();
     settle([this] { return bench_->can().running(); });
     if (bench_->can().running()) return;
@@ -60,7 +60,7 @@ class ThroughCan {
   }
   /// Disables them after the last one. A drive that is in its fault state is off already; one that
   /// the bus no longer reaches is off once its own watches have acted.
-  void disable() {
+  void switch_off() {
     bench_->can().disable();
     const auto off = [this] {
       return bench_->bus().timed() ? bench_->off() : bench_->can().at_rest();
@@ -116,14 +116,14 @@ template <Device Plant, class Setup, AxesController Law>
 std::shared_ptr<Trace> simulate_through_can(const Setup& setup, Law law, std::size_t rows,
                                             const std::optional<TimedBus>& timed = {}) {
   auto device = device_through_can<Plant>(setup, timed);
-  device.enable();
+  device.switch_on();
   const SignalChain chain(setup.device, setup.environment, law.timing(),
                           observing(setup.observer, law));
   Loop loop(std::move(device), VirtualClock(setup.timing.dt, setup.jitter, setup.seed),
             std::move(law), chain, setup.device.axes(), setup.loop);
   auto trace = loop.make_trace(rows);
   loop.run(*trace);
-  loop.device().disable();
+  loop.device().switch_off();
   return trace;
 }
 
