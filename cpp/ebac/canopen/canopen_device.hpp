@@ -35,8 +35,7 @@ class CanopenDevice {
       : bus_(&bus),
         wait_(std::move(wait)),
         setup_(setup),
-        scale_(TorqueScale::of(setup.motor, setup.drive)),
-        sequence_(setup.quick_stop) {
+        scale_(TorqueScale::of(setup.motor, setup.drive)) {
     check_setup(setup);
   }
 

@@ -28,7 +28,6 @@ struct CanopenSetup {
   int torque_ticks = 10;         // samples
   int torque_tolerance = 100;    // thousandths of the rated torque
   double heartbeat_timeout = 0;  // s
-  bool quick_stop = false;
   int own_node = 0;
   double heartbeat_period = 0.01;  // s
   double guard_period = 0;         // s
@@ -51,8 +50,6 @@ struct CanopenSetup {
           1, 32767},
         F{"heartbeat_timeout", &CanopenSetup::heartbeat_timeout, "s",
           "longest time between two heartbeats of a node; 0 watches none", 0, 60},
-        F{"quick_stop", &CanopenSetup::quick_stop, "1",
-          "stop by the drive's quick stop instead of letting the motor coast", 0, 1},
         F{"own_node", &CanopenSetup::own_node, "1",
           "node number under which the loop sends a heartbeat of its own; 0 sends none", 0,
           kLastNode},

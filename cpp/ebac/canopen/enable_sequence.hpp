@@ -10,8 +10,6 @@ class EnableSequence {
  public:
   enum class Goal : std::uint8_t { kRest, kRun, kStop };
 
-  explicit EnableSequence(bool quick_stop) EBAC_RT : quick_stop_(quick_stop) {}
-
   void want(Goal goal) EBAC_RT {
     goal_ = goal;
     ticks_ = 0;
@@ -31,16 +29,12 @@ class EnableSequence {
     // Zero torque first, with the drive still on: its current is then zero when it lets go.
     const bool on = state == DriveState::kOperationEnabled;
     if (on && ticks_ < kZeroTicks) return DriveCommand::kEnableOperation;
-    if (goal_ == Goal::kRest) return down_from(state);
-    const bool brake = quick_stop_ && ticks_ < kQuickTicks;
-    return brake ? DriveCommand::kQuickStop : DriveCommand::kDisableVoltage;
+    return goal_ == Goal::kRest ? down_from(state) : DriveCommand::kDisableVoltage;
   }
 
  private:
   static constexpr int kZeroTicks = 1;
-  static constexpr int kQuickTicks = 6;
 
-  bool quick_stop_;
   Goal goal_ = Goal::kRest;
   bool running_ = false;
   int ticks_ = 0;

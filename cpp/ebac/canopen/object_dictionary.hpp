@@ -29,7 +29,7 @@ struct SheetEntry {
   std::int64_t high = 0;
   std::int64_t initial = 0;
   bool has_initial = false;
-  std::string text;  // initial one
+  std::string text{};  // initial one
 };
 
 /// The values of the object table. Checks lengths and limits; their effects belong to the drive.
