@@ -107,7 +107,10 @@ DeviceModel make_device(const py::args& args, const py::kwargs& keywords) {
   take("encoder", device.encoder, "an Encoder");
   take("capstan", device.capstan, "a Capstan");
   take("mechanics", device.mechanics, "Mechanics");
-  take("sensor", device.sensor, "a ForceSensor");
+  if (given.contains("sensor") && given["sensor"].is_none()) {
+    given["sensor"] = ForceSensor{.fitted = false};
+  }
+  take("sensor", device.sensor, "a ForceSensor, or None for a device without one");
   take("velocity", device.velocity, "BackwardDifference, LowPass or AdaptiveWindow");
   take("compensation", device.compensation, "a Compensation");
   refuse_rest("Device", given, part_names());
@@ -148,12 +151,13 @@ void bind_device(py::module_& m) {
       m, "Device",
       "One haptic device, part by part. The default is the reference device: one straight axis of "
       "0.25 kg and\n2 N s/m, built from the paper's motor, encoder and capstan.");
-  def_init(cls, &make_device,
-           "__init__(self, *, kinematics: Linear | Gimbal | SlidingGimbal = ..., motor: Motor = "
-           "..., drive: Drive "
-           "= ..., encoder: Encoder = ..., capstan: Capstan = ..., mechanics: Mechanics = ..., "
-           "sensor: ForceSensor = ..., velocity: BackwardDifference | LowPass | AdaptiveWindow = "
-           "..., compensation: Compensation = ...) -> None");
+  def_init(
+      cls, &make_device,
+      "__init__(self, *, kinematics: Linear | Gimbal | SlidingGimbal = ..., motor: Motor = "
+      "..., drive: Drive "
+      "= ..., encoder: Encoder = ..., capstan: Capstan = ..., mechanics: Mechanics = ..., "
+      "sensor: ForceSensor | None = ..., velocity: BackwardDifference | LowPass | AdaptiveWindow = "
+      "..., compensation: Compensation = ...) -> None");
   cls.def_readonly("kinematics", &DeviceModel::kinematics, "Joints to handle.")
       .def_readonly("motor", &DeviceModel::motor, "Motor of each axis.")
       .def_readonly("drive", &DeviceModel::drive, "Drive of each axis.")

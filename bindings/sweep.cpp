@@ -27,14 +27,16 @@ void bind_contact(py::module_& m) {
       "_measure_contact",
       [](const Numbers& t, const Numbers& x, const Numbers& force,
          const std::optional<Numbers>& energy, const std::optional<Numbers>& stored,
-         const std::optional<Numbers>& clamped, const std::optional<Numbers>& pull) {
+         const std::optional<Numbers>& clamped, const std::optional<Numbers>& pull,
+         const std::optional<Numbers>& wall) {
         const ContactRecord record{.t = view(t),
                                    .x = view(x),
                                    .force = view(force),
                                    .energy = view(energy),
                                    .stored = view(stored),
                                    .clamped = view(clamped),
-                                   .pull = view(pull)};
+                                   .pull = view(pull),
+                                   .wall = view(wall)};
         const WallContact c = measure_contact(record);
         Values numbers = values_of(c);
         numbers["rest_power"] = rest_power(record, c);
@@ -44,8 +46,8 @@ void bind_contact(py::module_& m) {
         return numbers;
       },
       py::kw_only(), py::arg("t"), py::arg("x"), py::arg("force"), py::arg("energy") = py::none(),
-      py::arg("stored") = py::none(), py::arg("clamped") = py::none(),
-      py::arg("pull") = py::none());
+      py::arg("stored") = py::none(), py::arg("clamped") = py::none(), py::arg("pull") = py::none(),
+      py::arg("wall") = py::none());
   m.def(
       "_stored_energy",
       [](const Environment& environment, const Kinematics& kinematics, const Numbers& x,

@@ -1490,6 +1490,10 @@ class ForceSensor:
         whether it sends its last record over and over meanwhile, so that nothing looks old.
     disconnects : bool
         whether its status says disconnected meanwhile; its reading is the last record.
+    scale : float
+        what it shows over what acts, of which the loop knows nothing, 0.1 to 10.
+    fitted : bool
+        whether the device has one; the force reads 0 without.
     """
 
     @staticmethod
@@ -1513,6 +1517,8 @@ class ForceSensor:
         resumes_at: float = ...,
         repeats: bool = False,
         disconnects: bool = False,
+        scale: float = 1.0,
+        fitted: bool = True,
     ) -> None: ...
     def __reduce__(self) -> tuple[typing.Any, ...]: ...
     def __repr__(self) -> str: ...
@@ -1538,6 +1544,11 @@ class ForceSensor:
     def disconnects(self) -> bool:
         """
         whether its status says disconnected meanwhile; its reading is the last record
+        """
+    @property
+    def fitted(self) -> bool:
+        """
+        whether the device has one; the force reads 0 without
         """
     @property
     def lag(self) -> float:
@@ -1573,6 +1584,11 @@ class ForceSensor:
     def resumes_at(self) -> float:
         """
         when records come again; inf for never [s], at least 0
+        """
+    @property
+    def scale(self) -> float:
+        """
+        what it shows over what acts, of which the loop knows nothing
         """
     @property
     def stops_at(self) -> float:
@@ -1691,7 +1707,7 @@ class Device:
         encoder: Encoder = ...,
         capstan: Capstan = ...,
         mechanics: Mechanics = ...,
-        sensor: ForceSensor = ...,
+        sensor: ForceSensor | None = ...,
         velocity: BackwardDifference | LowPass | AdaptiveWindow = ...,
         compensation: Compensation = ...,
     ) -> None: ...
@@ -9384,6 +9400,7 @@ def _measure_contact(
     stored: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None,
     clamped: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None,
     pull: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None,
+    wall: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None,
 ) -> dict[str, typing.Any]: ...
 def _measure_jitter(
     dt: typing.SupportsFloat | typing.SupportsIndex,

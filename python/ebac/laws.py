@@ -190,22 +190,47 @@ def design(
     KeyError
         For a name that is no law.
     ValueError
-        For a parameter out of range.
+        For a parameter out of range, and for gains of a force loop that are not 0 where the device has no force sensor
+        (`Device(sensor=None)`); those of a design are 0 then.
     TypeError
         For something that is no law, whose `step` or `reset` takes other arguments, or that cannot be copied.
     """
     if isinstance(law, Variant):
         return design(law.law, device, timing, **{**law.changes, **changes})
+    fitted = not isinstance(device, Device) or device.sensor.fitted
     if isinstance(law, (str, type)):
         if isinstance(law, str) and law in tuned_laws():
             changes = {**tuned(law, timing.delay)[1], **changes}
+        kind = _class_of(law)
+        names = [field.name for field in kind.fields()]
+        if not fitted:
+            changes = {**{gain: 0.0 for gain in FORCE_GAINS if gain in names}, **changes}
+        made: CoreLaw | PythonLaw
         try:
-            return _class_of(law).design(device, timing, **changes)
+            made = kind.design(device, timing, **changes)
         except ValueError as error:
             raise ValueError(by_cause(str(error), device, changes)) from None
-    if changes:
+    elif changes:
         raise TypeError(f"{law!r} is finished: make it with {', '.join(changes)}, or give its name")
-    return checked(law)
+    else:
+        made = checked(law)
+    if not fitted and isinstance(made, CoreLaw):
+        _refuse_force_loop(made)
+    return made
+
+
+#: Gains of the force loop, eq. (2): they feed back a measured force.
+FORCE_GAINS = ("kp", "kd")
+
+
+def _refuse_force_loop(law: CoreLaw) -> None:
+    """Raise ValueError for a law that feeds back a measured force."""
+    for gain in FORCE_GAINS:
+        if value := getattr(law, gain, 0.0):
+            raise ValueError(
+                f"{law.name}.{gain} = {value:g}: feeds back a measured force, but the device has no force sensor; "
+                f"{gain} = 0, or a device with one, on hardware a table [sensor]"
+            )
 
 
 def _class_of(law: str | type) -> type[CoreLaw]:

@@ -105,7 +105,7 @@ class Scenario:
         Whether the state of the device is estimated in every tick, from encoder, force sensor and currents: columns
         `est.*`. `ebac` then meets the world where the device will be when the command acts; so does any other law with
         "every-law". True, the default, and "every-law" design it from device and timing, as `Observer.of`; an
-        `Observer` is used as it is; False runs on the encoder alone.
+        `Observer` is used as it is; False runs on the encoder alone, as does a device without a force sensor.
 
     Raises
     ------
@@ -149,6 +149,11 @@ class Scenario:
         if isinstance(self.observer, str) and self.observer != EVERY_LAW:
             raise ValueError(
                 f"Scenario.observer = {self.observer!r}: must be True, False, {EVERY_LAW!r} or an Observer"
+            )
+        if not isinstance(self.observer, bool) and not self.device.sensor.fitted:
+            raise ValueError(
+                "Scenario.observer: estimates the state from a measured force, but the device has no force sensor; "
+                "leave the observer out, or give the device one"
             )
         if not 0 < self.seconds <= 1e5:
             raise ValueError(f"Scenario.seconds = {self.seconds} s: must lie in (0, 100000] s")
@@ -255,7 +260,7 @@ class Scenario:
         """Return the observer of a run, or None without one."""
         if isinstance(self.observer, Observer):
             return self.observer
-        if not self.observer:
+        if not self.observer or not self.device.sensor.fitted:
             return None
         designed = Observer.of(self.device, self.timing)
         return designed.replace(every_law=True) if self.observer == EVERY_LAW else designed

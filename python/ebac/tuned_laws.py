@@ -55,7 +55,7 @@ def on_its_observer(scenario: Scenario, law: AnyLaw) -> Scenario:
     name = getattr(law, "law", law)  # of a Variant, too
     if not isinstance(name, str) or not name.endswith(_OBSERVED) or name not in tuned_laws():
         return scenario
-    if not scenario.observer:
+    if not scenario.observer or not scenario.device.sensor.fitted:
         raise ValueError(
             f"{name}: acts on the estimate of the state observer, which is off; turn it on with observer=True, or use "
             f"{name.removesuffix('-observer')}"

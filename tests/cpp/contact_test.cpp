@@ -46,6 +46,23 @@ TEST(Contact, ASwingHasItsRestSizeAndFrequency) {
   }
 }
 
+TEST(Contact, TheShareOfAWallIsThatOfTheDeepestPosition) {
+  Column x = sine(0.003, 0.002, 5);
+  x[1234] = 0.01;
+  Column wall = x;
+  for (double& force : wall) force *= 1e4;
+  Column force = wall;
+  force[1234] = 25;
+  const Column t = times(x.size());
+  const auto share = [&](const Column& of) {
+    return measure_contact({.t = t, .x = x, .force = force, .wall = of}).impact_share;
+  };
+  EXPECT_NEAR(share(wall), 0.25, 1e-12);
+  wall[1234] = 0;  // the world does not act there
+  EXPECT_TRUE(std::isnan(share(wall)));
+  EXPECT_TRUE(std::isnan(share({})));
+}
+
 TEST(Contact, RippleAroundTheRestCountsNoCycle) {
   EXPECT_NEAR(measure(sine(0, 0.002, 5, 0.0002)).limit_cycle, 5, 0.05);
 }

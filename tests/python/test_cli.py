@@ -38,6 +38,7 @@ WALL_KEYS = [
     "quiet",
     "touched_at_rest",
     "drawn_J",
+    "impact_share",
 ]
 
 

@@ -602,7 +602,10 @@ def test_the_page_has_every_key_of_a_device_with_unit_and_default() -> None:
     assert parts.keys() == device.as_dict().keys() - {"velocity", "compensation"}
     for name, value in parts.items():
         assert shown[name] == {
-            f.name: (f.unit, str(f.default).lower() if f.default is False else f"{f.default:.4g}")
+            f.name: (
+                f.unit,
+                str(f.default).lower() if isinstance(f.default, bool) else f"{f.default:.4g}",
+            )
             for f in type(value).fields()
             if f.name not in failures
         }, name

@@ -277,6 +277,28 @@ def test_an_ideal_wall_is_quiet() -> None:
     assert row.force_quiet
 
 
+def test_a_wall_that_gives_way_first_is_soft_on_impact(run: Any) -> None:
+    stiff = ebac.contact(run("ebac"))
+    assert stiff.impact_share == pytest.approx(1, abs=0.05)
+    assert not stiff.soft
+    slow = ebac.Variant(
+        "lag-compensator", {"stiffness": 500, "recovery_time": 0.3, "virtual_damping": 20}
+    )
+    noisy = ebac.Scenario(observer="every-law")
+    soft = ebac.contact(ebac.simulate(noisy, slow))
+    assert soft.exact
+    assert soft.soft
+    assert soft.verdict == "exact and quiet, soft on impact"
+    trace = ebac.simulate(noisy, slow)
+    deepest = int(trace["true.x"].argmax())
+    assert soft.impact_share == trace["f_applied"][deepest] / trace["f_env"][deepest]
+
+
+def test_a_handle_that_never_touches_has_no_stiffness_on_impact() -> None:
+    scenario = ebac.Scenario(environment=ebac.Wall(position=0.2), seconds=0.5)
+    assert ebac.contact(ebac.simulate(scenario, "ebac")).impact_share is None
+
+
 def test_the_verdict_on_the_force_is_read_in_words(run: Any) -> None:
     assert (
         ebac.contact(run("ebac", observer=False)).force_verdict
@@ -488,6 +510,6 @@ def test_the_row_is_the_documented_one(run: Any) -> None:
         "law", "rest_m", "ideal_m", "swing_m", "force_swing_N", "settled_s", "peak_m",
         "limit_cycle_Hz", "least_energy_J", "clamped_share",
         "force_rest_N", "force_settled_s", "ripple_N", "ripple_rms_N", "ripple_high_N", "jumps", "perceived",
-        "still", "force_quiet", "quiet", "touched_at_rest", "drawn_J",
+        "still", "force_quiet", "quiet", "touched_at_rest", "drawn_J", "impact_share",
     ]  # fmt: skip
     assert json.loads(json.dumps(row)) == row

@@ -22,7 +22,7 @@ from ebac.studies.study import ideal_contacts
 FEW = Operators.grid(mass=[0.15], damping=[2, 4, 6], stiffness=[300], target=[0.04])  # 3 hands
 ROW = [
     "law", "condition", "hands", "good", "exact_and_still", "settled_in_time", "least_energy_J", "most_drawn_J",
-    "median_settled_s", "ideal_good", "least_rest_power_W", "force_quiet",
+    "median_settled_s", "ideal_good", "least_rest_power_W", "force_quiet", "median_impact_share",
 ]  # fmt: skip
 
 

@@ -24,8 +24,12 @@ struct ForceSensor {
   double resumes_at = std::numeric_limits<double>::infinity();  // s
   bool repeats = false;      // the last record while it stops, as if it were new
   bool disconnects = false;  // while it stops, its status says so
+  double scale = 1;          // 1, unknown to the loop
+  bool fitted = true;        // false for a device without one
 
   double read(double force, Noise& random) const EBAC_RT {
+    if (!fitted) return 0;
+    force *= scale;
     if (bias != 0) force += bias;
     if (noise > 0) force += noise * random.normal();
     if (quantum > 0) force = quantum * std::round(force / quantum);
@@ -36,7 +40,8 @@ struct ForceSensor {
 
   /// Whether it shows every tick the force of that tick.
   bool prompt() const EBAC_RT {
-    return period == 0 && delay == 0 && stops_at == std::numeric_limits<double>::infinity();
+    return !fitted ||
+           (period == 0 && delay == 0 && stops_at == std::numeric_limits<double>::infinity());
   }
 
   static constexpr auto fields() {
@@ -58,6 +63,10 @@ struct ForceSensor {
           "whether it sends its last record over and over meanwhile, so that nothing looks old"},
         F{"disconnects", &ForceSensor::disconnects, "1",
           "whether its status says disconnected meanwhile; its reading is the last record"},
+        F{"scale", &ForceSensor::scale, "1",
+          "what it shows over what acts, of which the loop knows nothing", 0.1, 10},
+        F{"fitted", &ForceSensor::fitted, "1",
+          "whether the device has one; the force reads 0 without"},
     };
   }
 };

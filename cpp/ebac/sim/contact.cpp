@@ -127,7 +127,7 @@ void check_rows(const ContactRecord& r) {
                                 " rows, its position " + std::to_string(rows));
   };
   for (const Values column : {r.t, r.force}) refuse_other(column);
-  for (const Values column : {r.energy, r.stored, r.clamped, r.pull}) {
+  for (const Values column : {r.energy, r.stored, r.clamped, r.pull, r.wall}) {
     if (!column.empty()) refuse_other(column);
   }
 }
@@ -159,6 +159,10 @@ WallContact measure_contact(const ContactRecord& r) {
   if (!r.energy.empty() && !r.stored.empty()) c.most_drawn = drawn(r.energy, r.stored);
   if (!r.clamped.empty()) c.clamped_share = mean(r.clamped);
   if (!r.pull.empty()) c.most_pull = std::ranges::max(r.pull);
+  if (!r.wall.empty()) {
+    const auto deepest = static_cast<std::size_t>(std::ranges::max_element(r.x) - r.x.begin());
+    if (r.wall[deepest] != 0) c.impact_share = r.force[deepest] / r.wall[deepest];
+  }
   return c;
 }
 

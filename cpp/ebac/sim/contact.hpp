@@ -36,6 +36,7 @@ struct WallContact {
   double force_swing = kNone;    // N
   double settled = kNone;        // s
   double peak = kNone;           // m
+  double impact_share = kNone;   // 1
   double limit_cycle = kNone;    // Hz
   double least_energy = kNone;   // J
   double most_drawn = kNone;     // J
@@ -68,6 +69,8 @@ struct WallContact {
         F{"settled", &WallContact::settled, "s",
           "from when on it stays within 0.125 mm of its rest"},
         F{"peak", &WallContact::peak, "m", "deepest position of the whole run"},
+        F{"impact_share", &WallContact::impact_share, "1",
+          "applied force over that of the virtual world, in the tick of the deepest position"},
         F{"limit_cycle", &WallContact::limit_cycle, "Hz",
           "frequency of the swing where it is not still"},
         F{"least_energy", &WallContact::least_energy, "J", "lowest physical port energy"},
@@ -109,6 +112,7 @@ struct ContactRecord {
   std::span<const double> stored{};   // J, energy stored by an ideal environment at this position
   std::span<const double> clamped{};  // 0 or 1
   std::span<const double> pull{};     // N, of the hand; 0 where the virtual world does not act
+  std::span<const double> wall{};     // N, of the virtual world
 };
 
 /// Measures a contact; throws std::invalid_argument for fewer than `kFewestRows` rows or columns of

@@ -10,7 +10,7 @@ namespace ebac {
 class ContactRecorder {
  public:
   void start(std::size_t rows) {
-    for (auto* column : {&t_, &x_, &force_, &energy_, &stored_, &clamped_, &pull_}) {
+    for (auto* column : {&t_, &x_, &force_, &energy_, &stored_, &clamped_, &pull_, &wall_}) {
       column->clear();
       column->reserve(rows);
     }
@@ -24,6 +24,7 @@ class ContactRecorder {
     stored_.push_back(stored);
   }
   void add_pull(double pull) { pull_.push_back(pull); }
+  void add_wall(double wall) { wall_.push_back(wall); }
   void add_clamped(bool clamped) { clamped_.push_back(clamped ? 1.0 : 0.0); }
 
   std::size_t rows() const { return t_.size(); }
@@ -35,11 +36,12 @@ class ContactRecorder {
             .energy = energy_,
             .stored = stored_,
             .clamped = clamped_,
-            .pull = pull_};
+            .pull = pull_,
+            .wall = wall_};
   }
 
  private:
-  std::vector<double> t_, x_, force_, energy_, stored_, clamped_, pull_;
+  std::vector<double> t_, x_, force_, energy_, stored_, clamped_, pull_, wall_;
 };
 
 }  // namespace ebac

@@ -69,6 +69,7 @@ inline bool keep_row(const Sample& s, const SimulatedDevice& device, const bool*
   recorder.add(s.t, x[0], port.f_applied, energy, stored.at(x, s.t));
   const bool acts = port.f_env != 0 || port.f_cmd != 0 || port.f_applied != 0;
   recorder.add_pull(acts ? setup.hand.pull(0, s.t, x[0]) : 0.0);
+  recorder.add_wall(port.f_env);
   if (clamped != nullptr) recorder.add_clamped(*clamped);
   return x.cwiseAbs().maxCoeff() <= limits.position && energy >= -limits.energy;
 }

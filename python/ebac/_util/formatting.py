@@ -156,6 +156,8 @@ def _device(device: Device) -> str:
     hanging = f", weight {weight:.4g} N" if weight else ""
     level = device.sensor.noise
     noise = f", sensor noise {level:g} N" if level else ", sensor without noise"
+    if not device.sensor.fitted:
+        noise = ", no force sensor"
     permille = ", torque in per mille" if device.drive.permille else ""
     return f"{name} ({device.mass:.4g} kg, {device.mechanics.damping:g} N s/m{hanging}{friction}{noise}{permille})"
 

@@ -91,7 +91,10 @@ def from_document(name: str, item: Any, where: str) -> Any:
     if isinstance(item, list):
         return tuple(from_document(name, one, f"{where}[{i}]") for i, one in enumerate(item))
     if not isinstance(item, Mapping):
-        raise ValueError(f"{where} = {item!r}: must be a table")
+        without = (
+            "; a device without a sensor has `fitted = false` in it" if name == "sensor" else ""
+        )
+        raise ValueError(f"{where} = {item!r}: must be a table{without}")
     return _build(_chosen(name, item, where), item, where)
 
 

@@ -17,10 +17,11 @@ JUDGED_FROM = 0.5
 def verdict(contact: Contact) -> str:
     """Return what a contact came to: "exact and quiet", "swings", "quiet, too deep by 5.63 mm".
 
-    One that is still and not quiet has a force that is not: "exact, force not quiet". "moves with the hand" where the
-    hand's target has not come to rest either. "no contact" where
-    the virtual world never acted, "left the surface: no contact at rest" where it acts no more at rest, "too short to
-    judge" for less than half a second.
+    One that is still and not quiet has a force that is not: "exact, force not quiet". One that rests where it should,
+    but met less than half of the wall's stiffness where it was deepest: "exact and quiet, soft on impact".
+    "moves with the hand" where the hand's target has not come to rest either. "no contact" where the world never
+    acted, "left the surface: no contact at rest" where it acts no more at rest, "too short to judge" for less than half
+    a second.
     """
     if contact.touched is False:
         return "no contact"
@@ -33,8 +34,10 @@ def verdict(contact: Contact) -> str:
     deviation = contact.deviation_m
     if deviation is None:
         return "quiet" if contact.quiet else "force not quiet"
+    if contact.exact and contact.quiet:
+        return "exact and quiet, soft on impact" if contact.soft else "exact and quiet"
     if contact.exact:
-        return "exact and quiet" if contact.quiet else "exact, force not quiet"
+        return "exact, force not quiet"
     where = "too deep" if deviation > 0 else "not deep enough"
     away = f"{where} by {1e3 * abs(deviation):.3g} mm"
     return f"quiet, {away}" if contact.quiet else f"{away}, force not quiet"

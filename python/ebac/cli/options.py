@@ -168,6 +168,15 @@ class DeviceOptions:
 
     device: DeviceName = None
     device_noise: DeviceNoise = None
+    device_sensor: Annotated[
+        bool | None,
+        option(
+            "--device-sensor/--no-device-sensor",
+            text="Whether the device has a force sensor; without, laws run on the encoder alone, without force loops",
+            default="sensor",
+            panel=DEVICE,
+        ),
+    ] = None
     device_coulomb: Annotated[
         float | None,
         option(text="Coulomb friction of the device [N]", default="0", panel=DEVICE),

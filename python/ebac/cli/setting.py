@@ -163,6 +163,7 @@ def choose_hand(
 #: Options that change a part of the device: the part, and what of it.
 DEVICE_PARTS = {
     "device_noise": ("sensor", "noise"),
+    "device_sensor": ("sensor", "fitted"),
     "device_coulomb": ("mechanics", "coulomb"),
     "device_friction_compensation": ("compensation", "friction"),
     "device_counts": ("encoder", "counts_per_turn"),

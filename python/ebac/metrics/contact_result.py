@@ -6,6 +6,8 @@ from dataclasses import asdict, dataclass
 
 from ebac._util import formatting, verdicts
 
+#: Share of a wall's stiffness on impact below which a contact is soft.
+SOFT_BELOW = 0.5
 #: Numbers of a contact that are no keys of `ebac wall --json`.
 MORE = (
     "count_m", "allowed_m", "most_drawn_J", "force_step_N", "most_pull_N", "rest_power_W", "seconds", "touched",
@@ -28,6 +30,7 @@ LINES = (
     ("force jumps", "jumps", "1", "-"),
     ("vibration/threshold", "perceived", "threshold", "-"),
     ("deepest", "peak_m", "m", "-"),
+    ("stiffness on impact", "impact_share", "share", "-"),
     ("limit cycle", "limit_cycle", "Hz", "none"),
     ("least energy", "least_energy_J", "J", "-"),
     ("drawn", "drawn_J", "J", ""),
@@ -55,6 +58,10 @@ class Contact:
         From when on the position stays within 0.125 mm of its rest; None when it never does.
     peak_m : float
         Deepest position of the whole run.
+    impact_share : float or None
+        Share of the wall's stiffness that the hand meets at the deepest position of the run: the applied force there
+        over that of the virtual world. 1 for an ideal wall; a law that lets the hand in and brings it back later is
+        exact at rest and has less here. None where the world does not act there.
     limit_cycle_Hz : float or None
         Frequency of the swing; None when it is still or drifts without swinging back.
     least_energy_J : float or None
@@ -132,7 +139,7 @@ class Contact:
     that holds it [1]_: 8.5 um at 20 Hz, 13 dB less with each octave to 160 Hz, 0.06 um at 320 Hz; 14 N s/m below 40 Hz,
     7 dB less at 80 Hz, 23 dB less from 160 to 320 Hz. The force is assumed to move a handle of 0.25 kg, the reference
     device, in that hand. Both impedances make 37, 31, 27, 24 and 61 mN at 20, 40, 80, 160 and 320 Hz, and the filters
-    keep within 2 dB of that. Vibration sums up over about 0.2 s [2]_.
+    keep within 2 dB of that up to 160 Hz, and within 4 dB at 320 Hz. Vibration sums up over about 0.2 s [2]_.
 
     It puts laws on one scale. It does not predict what a person feels on another handle: a light one moves more by the
     same force, and a hand that moves or presses detects less than one at rest in a laboratory. Below 20 Hz, where a
@@ -175,6 +182,7 @@ class Contact:
     drawn_J: float | None = None
     with_hand: bool = False
     saturated_share: float | None = None
+    impact_share: float | None = None
 
     @property
     def verdict(self) -> str:
@@ -233,6 +241,11 @@ class Contact:
     def saturated(self) -> float | None:
         """`saturated_share`, None where the motor could give every command."""
         return self.saturated_share or None
+
+    @property
+    def soft(self) -> bool:
+        """Whether the hand meets less than half of the wall's stiffness on impact, see `impact_share`."""
+        return self.impact_share is not None and self.impact_share < SOFT_BELOW
 
     @property
     def exact(self) -> bool | None:

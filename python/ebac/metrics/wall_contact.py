@@ -35,6 +35,7 @@ COLUMNS = {
     "force_swing_N": "force_swing",
     "settled_s": "settled",
     "peak_m": "peak",
+    "impact_share": "impact_share",
     "limit_cycle_Hz": "limit_cycle",
     "least_energy_J": "least_energy",
     "most_drawn_J": "most_drawn",
@@ -106,6 +107,7 @@ def contact(trace: Trace, *, axis: int = 0, truth: bool = True) -> Contact:
         stored=stored,
         clamped=clamped,
         pull=pull,
+        wall=trace.axis("f_env", axis) if "f_env" in trace else None,
     )
     known: dict[str, Any] = {
         name: None if isnan(value) else value for name, value in numbers.items()

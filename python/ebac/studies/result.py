@@ -61,6 +61,8 @@ class StudyRow:
         `Contact`; None where there is none, as after 6 s.
     force_quiet : int or None
         Hands for which the force is quiet, see `Contact`; None where the condition has no point of rest.
+    median_impact_share : float or None
+        Median share of the wall's stiffness that a hand meets at its deepest position, `Contact.impact_share`.
     """
 
     law: str
@@ -75,6 +77,7 @@ class StudyRow:
     ideal_good: int | None = None
     least_rest_power_W: float | None = None
     force_quiet: int | None = None
+    median_impact_share: float | None = None
 
     def row(self) -> dict[str, Any]:
         """Return the documented row of `ebac study --json`."""
@@ -146,6 +149,7 @@ class Study:
             ideal_good=int(part["ideal_good"].sum()) if timed else None,
             least_rest_power_W=_of(np.min, part["rest_power_W"]),
             force_quiet=int(part["force_quiet"].sum()) if rests else None,
+            median_impact_share=_of(np.median, part["impact_share"]),
         )
 
     @cached_property

@@ -73,6 +73,7 @@ def show(study: Study, *, files: bool) -> None:
         "drawn in any window",
         "power at rest",
         "settled",
+        "stiffness on impact",
     ]
     grid = output.table(headings, numbers=range(2, len(headings)))
     last = ""
@@ -92,11 +93,12 @@ def show(study: Study, *, files: bool) -> None:
             formatting.quantity(row.most_drawn_J, "J"),
             formatting.quantity(row.least_rest_power_W, "W"),
             formatting.quantity(row.median_settled_s, "s", none="never"),
+            formatting.quantity(row.median_impact_share, "share"),
         )
         last = row.condition
     output.show(grid)
     _show_failures(study, files=files)
-    output.say("Simulated, not measured. settled: median of those that settle.", style="bold")
+    output.say("Simulated, not measured. settled, stiffness on impact: medians.", style="bold")
 
 
 def _count(count: int | None, row: StudyRow) -> str:

@@ -33,6 +33,7 @@ LINES = (
     ("force jumps", "jumps", "1", "-"),
     ("vibration/threshold", "perceived", "threshold", "-"),
     ("deepest", "peak_m", "m", "-"),
+    ("stiffness on impact", "impact_share", "share", "-"),
     ("limit cycle", "limit_cycle", "Hz", "none"),
     ("least energy", "least_energy_J", "J", "-"),
     ("drawn", "drawn_J", "J", ""),

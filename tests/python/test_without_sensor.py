@@ -1,0 +1,81 @@
+"""A device without a force sensor: no law feeds back a force, and none acts on an observer."""
+
+import json
+from typing import Any
+
+import numpy as np
+import pytest
+from typer.testing import CliRunner
+
+import ebac
+from ebac.cli import app
+from ebac.laws import FORCE_GAINS, LAWS, design
+
+BARE = ebac.Device(sensor=None)
+SHORT = ebac.Scenario(seconds=0.4)
+
+
+def test_none_is_a_sensor_that_is_not_fitted() -> None:
+    assert ebac.Device(sensor=ebac.ForceSensor(fitted=False)) == BARE
+    assert ebac.Device().replace(sensor=None) == BARE
+    scenario = ebac.Scenario(device=BARE)
+    assert ebac.Scenario.from_toml(scenario.to_toml()) == scenario
+    assert "no force sensor" in ebac.simulate(SHORT.replace(device=BARE), "direct").summary()
+
+
+@pytest.mark.parametrize("name", LAWS)
+def test_a_law_runs_on_the_encoder_alone_without_its_force_loop(name: str) -> None:
+    law: Any = design(name, BARE, SHORT.timing)
+    assert not any(getattr(law, gain, 0) for gain in FORCE_GAINS)
+    without = ebac.simulate(SHORT.replace(device=BARE), name)
+    assert not without["f_meas"].any()
+    assert without.scenario is not None
+    assert without.scenario.designed_observer() is None
+    if name != "iss":  # the size of a measured force bounds what it gives out
+        blind = ebac.simulate(SHORT.replace(observer=False), law)
+        assert blind["x"].tobytes() == without["x"].tobytes()
+
+
+@pytest.mark.parametrize(
+    ("law", "changes"),
+    [
+        ("tca", {"kp": 0.3}),
+        (ebac.Variant("tca-damped", {"kd": 1e-3}), {}),
+        (design("tca", ebac.Device(), ebac.Timing()), {}),
+        (ebac.TCA, {"kp": 0.3}),
+    ],
+    ids=["name", "variant", "finished", "class"],
+)
+def test_a_force_loop_is_refused(law: Any, changes: dict[str, float]) -> None:
+    with pytest.raises(
+        ValueError, match=r"k[pd] = .*: feeds back a measured force, but the device"
+    ):
+        ebac.simulate(SHORT.replace(device=BARE), law, **changes)
+
+
+@pytest.mark.parametrize(
+    "observer", ["every-law", ebac.Observer.of(ebac.Device(), ebac.Timing())], ids=["word", "own"]
+)
+def test_an_observer_that_is_asked_for_is_refused(observer: Any) -> None:
+    with pytest.raises(ValueError, match=r"Scenario\.observer: .* the device has no force sensor"):
+        ebac.Scenario(device=BARE, observer=observer)
+    with pytest.raises(
+        ValueError, match="acts on the estimate of the state observer, which is off"
+    ):
+        ebac.simulate(SHORT.replace(device=BARE), "tca-damped-tuned-observer")
+
+
+def test_the_option_takes_the_sensor_away() -> None:
+    words = "wall --no-device-sensor --seconds 0.6 --law tca-damped,ebac --json"
+    answer = json.loads(CliRunner().invoke(app, words.split()).stdout)
+    assert answer["scenario"]["device"]["sensor"]["fitted"] is False
+    bare = SHORT.replace(device=BARE, seconds=0.6)
+    rests = [ebac.contact(ebac.simulate(bare, law)).rest_m for law in ("tca-damped", "ebac")]
+    assert np.allclose([row["rest_m"] for row in answer["rows"]], rests, rtol=0, atol=1e-12)
+
+
+def test_another_value_than_a_table_names_the_way_to_leave_it_out() -> None:
+    with pytest.raises(
+        ValueError, match=r"must be a table; a device without a sensor has .*fitted"
+    ):
+        ebac.Scenario.from_toml("[device]\nsensor = false\n")
