@@ -643,6 +643,15 @@ def test_the_mass_of_a_device_in_grams_is_noted_and_no_built_in_device_is() -> N
         assert doubtful_device.doubts(preset.device) == []
 
 
+@pytest.mark.parametrize(("quantum", "count"), [(0.0, 0), (0.0625, 0), (0.125, 1)])
+def test_a_coarse_force_sensor_is_doubted(quantum: float, count: int) -> None:
+    sensor = ebac.ForceSensor(quantum=quantum)
+    said = doubtful_device.doubts(ebac.Device(sensor=sensor))
+    assert len(said) == count
+    assert all("steps of the force from 0.1 N" in text for text in said)
+    assert doubtful_device.doubts(ebac.Device(sensor=sensor.replace(fitted=False))) == []
+
+
 @pytest.mark.parametrize(
     ("radius", "limit", "noted"),
     [(0.12, 26.0, True), (0.12, 1.5, False), (0.1, 10.0, False), (0.1, 26.0, True)],

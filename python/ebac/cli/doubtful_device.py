@@ -1,4 +1,4 @@
-"""Numbers of a device file that are possible, but more likely in a wrong unit."""
+"""Numbers of a device file that are possible, but more likely in a wrong unit, or that cost a law its quiet."""
 
 from __future__ import annotations
 
@@ -17,18 +17,20 @@ FACTOR = 2.0
 CURRENT, FORCE, MASS = (0.05, 50.0), (0.1, 1e3), (1e-3, 20.0)
 #: Coarsest count of an encoder at the handle [m] that is usual.
 COUNT = 2e-4
+#: Steps of a force sensor from which on `ebac` is neither quiet nor keeps every wall [N].
+COARSE = 0.1
 #: No lever turns farther from its middle [rad], nor moves a cable at its drum farther [m].
 TURN, WAY = 1.6, 1.0
 
 
 def tell(file: Path | str, device: Device) -> None:
-    """Say on stderr what of a device is likely in a wrong unit."""
+    """Say on stderr what of a device is doubtful."""
     for text in doubts(device):
         output.note(f"{file}: {text}")
 
 
 def doubts(device: Device) -> list[str]:
-    """Return a sentence for each number that is likely in a wrong unit: its value, what is usual, and where to look."""
+    """Return a sentence for each number that is doubtful: its value, what is usual, and where to look."""
     motor = device.motor
     current, given = motor.current(motor.rated_torque), motor.rated_current
     ratio = "device.motor: rated_torque / torque_constant"
@@ -52,6 +54,11 @@ def doubts(device: Device) -> list[str]:
             f"device: a count of the encoder = {1e3 * device.count:.3g} mm at the handle: usual are at most "
             f"{1e3 * COUNT:g} mm; device.encoder: counts_per_turn is that of the motor after quadrature, 4 x lines, "
             "and the radii are in m (mm x 1e-3)"
+        )
+    if device.sensor.fitted and device.sensor.quantum >= COARSE:
+        found.append(
+            f"device.sensor.quantum = {device.sensor.quantum:g} N: with steps of the force from {COARSE:g} N on `ebac` "
+            "with the observer is not quiet and can lose walls; --no-observer runs it on the encoder alone"
         )
     found += _far_stops(device)
     drum, sector = device.capstan.drum_radius, device.capstan.sector_radius
