@@ -111,8 +111,6 @@ def test_a_target_acts_within_a_run_and_is_in_its_log(tmp_path: Path, until: Unt
         trace = run.finish()
         with pytest.raises(RuntimeError, match="has ended"):
             run.set_target(0.0)
-        with pytest.deprecated_call(match="set_target"), pytest.raises(RuntimeError, match="ended"):
-            run.aim(0.0)
     events = [e for e in ebac.logs.read(log).events if e.kind == "parameter"]
     assert [e.values for e in events] == [{"hand.target_0": 0.03}, {"hand.target_1": -0.02}]
     assert "0.03 m, as before" in events[0].message

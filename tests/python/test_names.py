@@ -7,32 +7,6 @@ ROOT = Path(__file__).parents[2]
 PACKAGE = ROOT / "python" / "ebac"
 #: Words of a paragraph or of an item of a list, at most: a longer one is read by nobody.
 LONGEST = 150
-#: Files that were renamed; a name of this list is no name of a file again.
-FILES = {
-    *(
-        "aside",
-        "carried",
-        "leaving",
-        "folder",
-        "document",
-        "wording",
-        "toml_text",
-        "place",
-        "watched",
-    ),
-    *(
-        "setting_up",
-        "another_process",
-        "told",
-        "newest",
-        "heard",
-        "foretell",
-        "folds",
-        "excites",
-        "pull",
-    ),
-    *("counts", "presses", "changes", "sources", "source", "drive_power", "keys"),
-}
 #: Words of the house dialect, as words of their own; words of the field that contain them are meant otherwise.
 WORDS = re.compile(
     r"\b(heard|felt|aimed|foretell\w*|foretold|doorbell|at the desk|Newest|Watched|Told)\b"
@@ -40,10 +14,6 @@ WORDS = re.compile(
 #: Names that programs outside read: conditions of a study, a key of the JSON of `ebac identify log` (see DECISIONS).
 KEPT = re.compile(r'"told(-[\w.+-]+)?"|[\'"`]told-')
 TOLD = re.compile(r"\b(told|tells?)\b(?!\()")
-
-
-def test_no_file_has_a_house_name() -> None:
-    assert not [path for path in PACKAGE.rglob("*.py") if path.stem in FILES]
 
 
 def test_no_house_word_is_left_in_the_package() -> None:

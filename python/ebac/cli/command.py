@@ -1,4 +1,4 @@
-"""What every command is: options in groups, old names of options, wrong input, Ctrl-C."""
+"""What every command is: options in groups, wrong input, Ctrl-C."""
 
 from __future__ import annotations
 
@@ -20,31 +20,16 @@ from ebac.cli import by_option, interrupts, options, output, wrong_input
 SCENARIO = (options.WALL, options.HAND, options.DEVICE, options.RUN)
 _UsageError: Any = typer.BadParameter.__mro__[1]
 
-#: Options that have a new name, one release long.
-RENAMED = {
-    "--stiffness": "--wall-stiffness",
-    "--damping": "--wall-damping",
-    "--position": "--wall-position",
-    "--mass": "--hand-mass",
-    "--target": "--hand-target",
-    "--noise": "--device-noise",
-    "--permille": "--device-permille",
-    "--no-permille": "--no-device-permille",
-    "--rt": "--realtime",
-    "--arms": "--logs",
-    "--current": "--max-current",
-}
-
 #: Commands by words that people use for them, which look like others: by group, `ebac` for the program itself.
 MEANT = {("teleop", "simulate"): "run", ("ebac", "simulate"): "wall"}
 
 
 class Command(TyperCommand):
-    """A command that understands old names, refuses in one sentence, and ends well on Ctrl-C."""
+    """A command that refuses in one sentence, and ends well on Ctrl-C."""
 
     def parse_args(self, ctx: Any, args: list[str]) -> list[str]:
         """Read the words after the command."""
-        words = _numbers_apart([_renamed(word, self) for word in args], self)
+        words = _numbers_apart(args, self)
         try:
             rest: list[str] = super().parse_args(ctx, list(words))
         except _UsageError as error:
@@ -108,16 +93,6 @@ def one_column(params: Sequence[Any]) -> Iterator[None]:
     finally:
         for one, first, second in names:
             one.opts, one.secondary_opts = first, second
-
-
-def _renamed(word: str, command: Any) -> str:
-    name, equals, value = word.partition("=")
-    new = RENAMED.get(name)
-    known = {n for param in command.params for n in (*param.opts, *param.secondary_opts)}
-    if new is None or name in known or new not in known:
-        return word
-    typer.echo(f"{name} is called {new} now; the next release drops the old name.", err=True)
-    return f"{new}{equals}{value}"
 
 
 def _numbers_apart(words: Sequence[str], command: Any) -> list[str]:

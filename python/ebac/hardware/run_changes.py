@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import threading
-import warnings
 from typing import TYPE_CHECKING, Any
 
 from ebac import _core
@@ -135,11 +134,6 @@ class RunChanges(LiveStatus):
         with self._lock:
             self._check()
             return self._parameters.set_target(*target)
-
-    def aim(self, *target: float | None) -> tuple[float | None, ...]:
-        """Do the same as `set_target`; the old name, which will be removed in the next release."""
-        warnings.warn("Run.aim is now Run.set_target", DeprecationWarning, stacklevel=2)
-        return self.set_target(*target)
 
     def _check(self) -> None:
         if self.done:
