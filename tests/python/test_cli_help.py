@@ -2,6 +2,7 @@
 
 import subprocess
 import sys
+from importlib import import_module
 from collections.abc import Iterator
 from typing import Any
 
@@ -32,6 +33,12 @@ def test_the_help_names_the_laws_that_wall_runs() -> None:
     assert f"default: ({', '.join(DEFAULT_LAWS)})" in helped("wall")
     assert len(DEFAULT_LAWS) == 4
     assert "under four laws" in helped()
+
+
+@pytest.mark.parametrize("name", ["study", "engines", "shapes", "tissue"])
+def test_the_help_names_the_laws_that_a_study_runs(name: str) -> None:
+    laws = import_module(f"ebac.studies.{name}").LAWS
+    assert f"default: ({', '.join(laws)})" in helped(name)
 
 
 @pytest.mark.parametrize("words", EVERY, ids=" ".join)

@@ -21,13 +21,15 @@ from ebac.studies.result import Study
 from ebac.studies.sweeps.job import Progress
 from ebac.studies.sweeps.run import Laws, name_laws, seed_of, sweep
 
+#: Laws that are compared unless others are given.
+LAWS = ("direct", "tca", "tca-damped", "eba", "ebac")
 #: Settled in time: within this factor of what the ideal wall needs, plus this much [s].
 SLOWER, LATER = 1.5, 0.2
 
 
 def study(
     population: Operators,
-    laws: Laws = ("tca", "eba", "ebac"),
+    laws: Laws = LAWS,
     conditions: Sequence[str | Condition] = ("d1K10",),
     *,
     base: Scenario | None = None,
@@ -45,7 +47,7 @@ def study(
     population : Operators
         The hands.
     laws : law, sequence of laws, or mapping of names to laws
-        As `sweep` takes them.
+        As `sweep` takes them; default: `direct`, `tca`, `tca-damped`, `eba`, `ebac`.
     conditions : sequence of str or Condition
         Names of `CONDITIONS` or `GROUPS`, or conditions of your own.
     base : Scenario, optional

@@ -15,7 +15,6 @@ if TYPE_CHECKING:
     from ebac.operators import Operators
     from ebac.studies import Study
 
-DEFAULT_LAWS = ("direct", "tca", "tca-damped", "eba", "ebac")
 _WHO, _WHAT = "Population", "Laws and conditions"
 
 
@@ -49,7 +48,9 @@ def study(
             rich_help_panel=_WHO,
         ),
     ] = None,
-    law: Annotated[list[str] | None, options.laws(", ".join(DEFAULT_LAWS), panel=_WHAT)] = None,
+    law: Annotated[
+        list[str] | None, options.laws("direct, tca, tca-damped, eba, ebac", panel=_WHAT)
+    ] = None,
     condition: Annotated[
         list[str] | None,
         options.conditions(
@@ -90,8 +91,10 @@ def study(
 
     * `ebac study --law ebac --out big`, and after Ctrl-C the same with `--resume`
     """
+    from ebac.studies.study import LAWS
+
     with output.refusing():
-        names = by_name.law_names(law or DEFAULT_LAWS)
+        names = by_name.law_names(law or LAWS)
         people = setting.population(population, hands, seed, approach)
         given: dict[str, Any] = {
             "base": options.scenario_of(device, length),
