@@ -59,7 +59,7 @@ def encoder_and_friction(printed: Printed) -> str:
 
     def areas(base: ebac.Scenario, laws: dict[str, ebac.Variant | str]) -> list[tuple[float, str]]:
         """Return the largest area of some laws at each delay, and whose it is."""
-        found = ebac.zwidth(base, laws, threads=printed.threads, **WALLS)
+        found = ebac.zwidth(laws, base=base, threads=printed.threads, **WALLS)
         return [max((found.area("usable", law, d), law) for law in laws) for d in DELAYS]
 
     def drawn(base: ebac.Scenario, law: ebac.Variant | str) -> str:

@@ -77,7 +77,7 @@ def z_width() -> Picture:
         "lag-compensator, for the area": ebac.Variant("lag-compensator", for_the_area),
         "ebac": "ebac",
     }
-    return plot_zwidth(zwidth(NOISY.replace(seconds=3.0, observer="every-law"), laws))
+    return plot_zwidth(zwidth(laws, base=NOISY.replace(seconds=3.0, observer="every-law")))
 
 
 def energy() -> Picture:

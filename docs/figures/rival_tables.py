@@ -250,7 +250,9 @@ def z_width_explored(printed: Printed) -> str:
         """Return the largest of some laws: without and with random hands, for every delay."""
         named = {str(i): law for i, law in enumerate(laws)}
         found = [
-            ebac.zwidth(base, named, hands=hands, epsilon=energy, threads=printed.threads, **WALLS)
+            ebac.zwidth(
+                named, base=base, hands=hands, epsilon=energy, threads=printed.threads, **WALLS
+            )
             for hands in (0, EXPLORERS)
         ]
         return np.array(

@@ -48,7 +48,7 @@ has = "; it has: device, hand, environment, timing, seconds, jitter, seed, obser
             "(a device's own: ebac.simulate), not True (bool)",
         ),
         (
-            lambda: ebac.zwidth("x"),  # type: ignore[arg-type]
+            lambda: ebac.zwidth(base="x"),  # type: ignore[arg-type]
             "ebac.zwidth takes a Scenario as its base, not 'x' (str)",
         ),
         (

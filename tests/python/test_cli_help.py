@@ -2,8 +2,8 @@
 
 import subprocess
 import sys
-from importlib import import_module
 from collections.abc import Iterator
+from importlib import import_module
 from typing import Any
 
 import pytest

@@ -151,7 +151,7 @@ def interrupted_at(event):
             raise KeyboardInterrupt
     sys.setprofile(count)
     try:
-        run_campaign(100_000, threads=1, step=look)
+        run_campaign(100_000, threads=1, progress=look)
     except KeyboardInterrupt:
         sys.setprofile(None)
     return left[0] <= 0

@@ -106,10 +106,10 @@ def test_a_wall_of_ebac_wall_may_have_an_engine(tmp_path: Path) -> None:
 
 def test_a_world_that_no_engine_computes_is_refused() -> None:
     with pytest.raises(ValueError, match=r"an engine computes a worlds\.World"):
-        engines(ebac.Scenario(environment=ebac.Disc()))
+        engines(base=ebac.Scenario(environment=ebac.Disc()))
     thread = EngineThread(lambda x, v: LocalModel(at=(0, 0, 0), normal=(1, 0, 0), stiffness=1))
     with pytest.raises(ValueError, match="an engine computes"):
-        engines(ebac.Scenario(environment=thread.world))
+        engines(base=ebac.Scenario(environment=thread.world))
 
 
 def test_a_damping_that_the_model_would_leave_out_is_refused() -> None:

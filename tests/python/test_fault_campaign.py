@@ -71,6 +71,8 @@ def test_bad_numbers_are_refused() -> None:
         faults.run_campaign(0)
     with pytest.raises(ValueError, match="seed = -1"):
         faults.run_campaign(1, seed=-1)
+    with pytest.raises(ValueError, match=r"threads = 0: must lie in \[1, 1024\]; without it"):
+        faults.run_campaign(1, threads=0)
     with pytest.raises(ValueError, match="index = -1"):
         faults.run_case(-1)
 

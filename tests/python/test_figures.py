@@ -386,7 +386,7 @@ def test_every_study_has_a_title_that_says_simulated() -> None:
         plot_ablation(ablation(few, base=base, measures=MEASURES[:2])),
         plot_sweep(ebac.sweep([base], ["tca", "ebac"])),
         plot_map(stability_map("ebac", base=base, xs=[0, 5, 9], ys=[1e3, 2e3, 1e4])),
-        plot_zwidth(zwidth(base, ["tca", "ebac"], delays=[1], dampings=[0.0, 5.0])),
+        plot_zwidth(zwidth(["tca", "ebac"], base=base, delays=[1], dampings=[0.0, 5.0])),
         plot_worst(worst("ebac", family=["impact"], evaluations=40, base=base)),
         plot_budget(error_budget(runs=2)),
     ]

@@ -184,6 +184,11 @@ def test_a_study_pairs_physicians_and_does_not_depend_on_threads() -> None:
         ({"delays": ()}, ValueError, "delays = []: is empty; give one at least"),
         ({"delays": 0.1}, TypeError, "delays = 0.1 (float): must be a sequence, such as [0.1]"),
         ({"delays": ["a"]}, TypeError, "delays = 'a': must be a number"),
+        (
+            {"threads": 0},
+            ValueError,
+            "threads = 0: must lie in [1, 1024]; without it there is one per usable core",
+        ),
         ({"count": 2.5}, TypeError, "count = 2.5: must be a whole number"),
     ],
 )

@@ -161,6 +161,7 @@ def test_what_no_gains_keep_is_refused(loop) -> None:
         ({"law": "eba"}, "law 'eba': has no force loop of eq. "),
         ({"vary": -1.0}, r"vary = -1: must lie in \[0, 3\]"),
         ({"evaluations": 0}, "evaluations = 0: must be at least 1"),
+        ({"threads": 0}, r"threads = 0: must lie in \[1, 1024\]"),
     ],
 )
 def test_bad_wishes_are_refused(loop, change: dict, message: str) -> None:

@@ -40,7 +40,9 @@ def results() -> dict[str, Callable[[], Any]]:
         "worst [mJ]": lambda: worst("ebac", family=["impact"], evaluations=40),
         "sweep [mm]": lambda: ebac.sweep([SHORT] * 40, ["tca", "ebac"]),
         "map [N/m]": lambda: stability_map("ebac", base=SHORT, xs=[0, 5], ys=[1e3, 1e4]),
-        "zwidth [N/m]": lambda: zwidth(SHORT, ["tca", "ebac"], delays=[1], dampings=[0.0, 5.0]),
+        "zwidth [N/m]": lambda: zwidth(
+            ["tca", "ebac"], base=SHORT, delays=[1], dampings=[0.0, 5.0]
+        ),
         "campaign ticks": lambda: faults.run_campaign(40),
         "budget [mm]": budget,
         "tracking mm": lambda: evaluate(

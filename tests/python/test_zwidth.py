@@ -276,7 +276,7 @@ def test_progress_comes_to_its_end(hands: int) -> None:
 def test_bad_input_is_refused(changes: dict[str, Any], message: str) -> None:
     base = changes.pop("base", None)
     with pytest.raises(ValueError, match=message):
-        zwidth(base, "direct", **changes)
+        zwidth("direct", base=base, **changes)
 
 
 @pytest.mark.slow

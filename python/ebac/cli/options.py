@@ -107,7 +107,11 @@ ScenarioFile: TypeAlias = Annotated[
 Threads: TypeAlias = Annotated[
     int | None,
     typer.Option(
-        help="Threads.", show_default="one per core", min=1, max=1024, rich_help_panel=RUN
+        help="Number of threads.",
+        show_default="one per usable core",
+        min=1,
+        max=1024,
+        rich_help_panel=RUN,
     ),
 ]
 

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from ebac import _core
 from ebac._util.background import Background
+from ebac._util.cores import thread_count
 from ebac.trace import Trace
 
 
@@ -121,8 +122,8 @@ def run_campaign(
     cases: int = 10_000,
     *,
     seed: int = 1,
-    threads: int = 0,
-    step: Callable[[int, int], None] | None = None,
+    threads: int | None = None,
+    progress: Callable[[int, int], None] | None = None,
 ) -> FaultCampaign:
     """Run cases in virtual time: two simulated drives on a CAN bus, hand, wall, law, limits, states.
 
@@ -139,10 +140,10 @@ def run_campaign(
         1 to 10 million; every kind in turn.
     seed : int
         The same seed gives the same cases, on any number of threads; 0 to 2^63 - 1.
-    threads : int
-        0 for one per core.
-    step : callable, optional
-        Called with (done, total) now and then.
+    threads : int, optional
+        Threads, [1, 1024]; default: one per usable core.
+    progress : callable, optional
+        Called with cases done and all.
 
     Raises
     ------
@@ -152,11 +153,10 @@ def run_campaign(
     for name, value, low, high in (
         ("cases", cases, 1, 10_000_000),
         ("seed", seed, 0, 2**63 - 1),
-        ("threads", threads, 0, 1024),
     ):
         if not low <= value <= high:
             raise ValueError(f"{name} = {value}: must lie in [{low}, {high}]")
-    columns, verdicts = _run(cases, seed, threads, step)
+    columns, verdicts = _run(cases, seed, thread_count(threads), progress)
     names = list(kinds().items())
     rows = [
         _row(name, what, columns, verdicts, np.arange(cases) % len(names) == i, seed)
@@ -168,22 +168,22 @@ def run_campaign(
 
 
 def _run(
-    cases: int, seed: int, threads: int, step: Callable[[int, int], None] | None
+    cases: int, seed: int, threads: int, progress: Callable[[int, int], None] | None
 ) -> tuple[dict[str, NDArray[Any]], list[str]]:
-    progress = _core.SweepProgress()
+    state = _core.SweepProgress()
     campaign = None
     try:
-        campaign = Background(lambda: _core._fault_campaign(cases, seed, threads, progress))
+        campaign = Background(lambda: _core._fault_campaign(cases, seed, threads, state))
         while not campaign.wait(0.05):
-            if step is not None:
-                step(progress.done, cases)
+            if progress is not None:
+                progress(state.done, cases)
     except BaseException:
-        progress.cancel()
+        state.cancel()
         if campaign is not None:
             campaign.wait()
         raise
-    if step is not None:
-        step(progress.done, cases)
+    if progress is not None:
+        progress(state.done, cases)
     columns, verdicts = campaign.result()
     return columns, verdicts
 

@@ -14,6 +14,7 @@ from ebac import _core
 from ebac._core import Device, Hand, Linear, Master
 from ebac._util.arguments import number, several, whole
 from ebac._util.background import Background
+from ebac._util.cores import thread_count
 from ebac.gastroscope.procedure import Procedure, core_law
 from ebac.laws import AnyLaw, law_name
 from ebac.tuned_laws import on_its_observer
@@ -136,7 +137,7 @@ def gastroscopy_study(
     count: int = 100,
     seed: int = 1,
     procedure: Procedure | None = None,
-    threads: int = 0,
+    threads: int | None = None,
     progress: Callable[[int, int], None] | None = None,
 ) -> GastroscopyStudy:
     """Compare gastroscopies with and without force feedback over simulated physicians.
@@ -154,8 +155,8 @@ def gastroscopy_study(
     procedure : Procedure, optional
         What they have in common; default: `Procedure()` with a joystick of three straight axes, which is simulated
         many times as fast as the gimbal.
-    threads : int
-        0 for one per core.
+    threads : int, optional
+        Threads, [1, 1024]; default: one per usable core.
     progress : callable, optional
         Called with runs done and all.
 
@@ -172,6 +173,7 @@ def gastroscopy_study(
     )
     if not 2 <= whole("count", count) <= 10000:
         raise ValueError(f"count = {count}: must lie in [2, 10000] physicians")
+    cores = thread_count(threads)
     base = Procedure(device=STRAIGHT) if procedure is None else procedure
     names = [law_name(law) for law in laws]
     cells = [
@@ -189,7 +191,7 @@ def gastroscopy_study(
             own = replace(person, master=master)
             scenario = on_its_observer(own.scenario(), law)
             todo.append((own.core(), scenario.setup(), core_law(law, scenario)))
-    columns = _run(todo, threads, progress)
+    columns = _run(todo, cores, progress)
     runs = {
         (name, delay, feedback): {
             key: values[i * count : (i + 1) * count] for key, values in columns.items()

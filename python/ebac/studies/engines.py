@@ -91,9 +91,9 @@ class Engines:
 
 
 def engines(
-    base: Scenario | None = None,
     laws: Sequence[AnyLaw] = LAWS,
     *,
+    base: Scenario | None = None,
     rates: Sequence[float] = RATES,
     jitter: float = JITTER,
     compute: float | None = None,
@@ -104,10 +104,10 @@ def engines(
 
     Parameters
     ----------
-    base : Scenario, optional
-        Its environment is a `worlds.World` or a straight wall. Default: a plane of 10 kN/m, 10 mm from the handle, 4 s.
     laws : sequence of laws
         As `simulate` takes them.
+    base : Scenario, optional
+        Its environment is a `worlds.World` or a straight wall. Default: a plane of 10 kN/m, 10 mm from the handle, 4 s.
     rates : sequence of float
         Calls of the engine [Hz], [1, 1000].
     jitter : float
@@ -126,7 +126,7 @@ def engines(
     """
     if base is None:
         base = Scenario(environment=preset("plane", position=0.01), seconds=4.0)
-    require(base, Scenario, "ebac.studies.engines", "a Scenario")
+    require(base, Scenario, "ebac.studies.engines", "a Scenario as its base")
     world = _bodies(base.environment)
     scenario = base.replace(environment=world)
     worlds: list[World | Bridge] = [world]

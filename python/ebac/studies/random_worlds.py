@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from ebac._util.arguments import named, require, several, whole
-from ebac._util.cores import usable_cores
+from ebac._util.cores import thread_count
 from ebac.laws import AnyLaw, CoreLaw, PythonLaw, design, reserve_of
 from ebac.metrics.energy_drawn import drawn
 from ebac.scenario import Scenario
@@ -70,7 +70,7 @@ def random_worlds(
     seed : int
         Of all hands, [0, 2^31).
     threads : int, optional
-        Threads, [1, 1024]; default: one per core. The result does not depend on it. Laws in Python have one.
+        Threads, [1, 1024]; default: one per usable core. The result does not depend on it. Laws in Python have one.
     progress : callable, optional
         Called with runs done and all.
 
@@ -102,8 +102,7 @@ def random_worlds(
     for device in devices:
         named("device for random worlds", device, DEVICES)
     _check_whole(hands=(hands, 1, MOST_HANDS), seed=(seed, 0, 2**31 - 1))
-    workers = usable_cores() if threads is None else threads
-    _check_whole(threads=(workers, 1, 1024))
+    workers = thread_count(threads)
     chosen = name_laws(laws)
     cells = list(product(kinds, devices, stiffnesses, delays))
     makers = [_maker(cell, moving=moving, noise=noise, seed=seed) for cell in cells]

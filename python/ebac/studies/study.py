@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from ebac import _core
 from ebac._util.arguments import require
-from ebac._util.cores import usable_cores
+from ebac._util.cores import thread_count
 from ebac.operators import Operators
 from ebac.scenario import Scenario
 from ebac.studies.conditions import Condition
@@ -111,7 +111,7 @@ def ideal_contacts(
     It settles at inf where it never does; NaN where there is no closed form, see `ideal_contact` in the core.
     """
     setups = [scenario.setup() for scenario in scenarios]
-    found = _core._ideal_contacts(setups, threads or usable_cores(), _core.SweepProgress())
+    found = _core._ideal_contacts(setups, thread_count(threads), _core.SweepProgress())
     settled, rest = found["settled"], found["rest"]
     return {
         "rest_m": rest,

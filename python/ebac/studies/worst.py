@@ -9,7 +9,7 @@ from typing import Any
 
 from ebac._util import formatting
 from ebac._util.arguments import require
-from ebac._util.cores import usable_cores
+from ebac._util.cores import thread_count
 from ebac.laws import AnyLaw, design, law_name, reserve_of
 from ebac.scenario import Scenario
 from ebac.studies.conditions import Condition, conditions
@@ -138,7 +138,7 @@ def worst(
     base : Scenario, optional
         What the condition changes; default: the reference scenario.
     threads : int, optional
-        Threads for the random part; default: one per core. The result does not depend on it.
+        Threads for the random part; default: one per usable core. The result does not depend on it.
     progress : callable, optional
         Called with (runs done, runs in all).
 
@@ -165,7 +165,7 @@ def worst(
     found = []
     for i, one in enumerate(wanted):
         count = partial(_report, report, i * evaluations, total)
-        search = HandSearch(one, scenario, made, most, threads or usable_cores(), count)
+        search = HandSearch(one, scenario, made, most, thread_count(threads), count)
         found.append(search.run(evaluations, seed))
     found.sort(key=lambda hand: (-hand.energy_J, -hand.most_drawn_J))
     return Worst(

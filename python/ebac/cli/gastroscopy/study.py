@@ -39,7 +39,7 @@ def study(
     ] = 3.0,
     seconds: Annotated[float, typer.Option(help="Longest duration of a run [s].")] = 120.0,
     seed: Annotated[int, typer.Option(min=0, help="Seed of the population.")] = 1,
-    threads: Annotated[int, typer.Option(min=0, help="Number of threads; 0 for one per core.")] = 0,
+    threads: options.Threads = None,
     as_json: output.AsJson = False,
 ) -> None:
     """Compare gastroscopies with and without force feedback over simulated physicians.

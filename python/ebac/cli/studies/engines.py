@@ -54,8 +54,8 @@ def engines(
         folder = to.folder("engines", as_json=as_json)
         with output.counting("simulating", quiet=as_json) as progress:
             found = compare(
-                base,
                 names,
+                base=base,
                 rates=engine_rate or RATES,
                 jitter=JITTER if engine_jitter is None else engine_jitter,
                 compute=engine_compute,

@@ -48,8 +48,8 @@ def faults(
     interrupts.keeping(
         f"nothing was written; fewer --cases take less time, and --seed {seed} gives the same ones"
     )
-    with output.refusing(), output.counting("injecting faults", quiet=as_json) as step:
-        found = run_campaign(cases, seed=seed, threads=threads or 0, step=step)
+    with output.refusing(), output.counting("injecting faults", quiet=as_json) as progress:
+        found = run_campaign(cases, seed=seed, threads=threads, progress=progress)
     files: list[str] = []
     with output.results(folder) as draft:
         if draft is not None:

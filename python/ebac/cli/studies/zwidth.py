@@ -127,7 +127,7 @@ def zwidth(
         )
         with output.counting("searching", quiet=as_json) as progress:
             found = search(
-                base, laws, delays=delay or (0, 1, 2), dampings=np.linspace(0, most_damping, points),
+                laws, base=base, delays=delay or (0, 1, 2), dampings=np.linspace(0, most_damping, points),
                 least=least, top=top, epsilon=epsilon, hands=hands, threads=threads, progress=progress,
             )  # fmt: skip
     to.report(

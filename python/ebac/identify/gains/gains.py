@@ -102,7 +102,7 @@ def fit_gains(
     limits: Limits | None = None,
     vary: float = 0.3,
     evaluations: int = 75,
-    threads: int = 0,
+    threads: int | None = None,
     progress: Callable[[int, int], None] | None = None,
 ) -> GainsResult:
     """Choose K_p and K_d of eq. (2) for the loop of a log.
@@ -127,8 +127,8 @@ def fit_gains(
         Relative distance of the further hands from the identified one, [0, 3].
     evaluations : int
         Largest number of pairs that COBYLA tries, at least 1.
-    threads : int
-        Threads of the simulation; 0 for one per core.
+    threads : int, optional
+        Threads of the simulation, [1, 1024]; default: one per usable core.
     progress : callable, optional
         Called with the number of pairs that are done and the largest number of pairs.
 

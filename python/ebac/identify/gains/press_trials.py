@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ebac._core import Hand, RunLimits, SweepProgress
+from ebac._util.cores import thread_count
 from ebac.identify.intervals import Z95
 from ebac.identify.parameters import HAND
 from ebac.identify.result import ArmResult
@@ -105,13 +106,18 @@ class Presses:
 
 
 def run_presses(
-    scenarios: list[Scenario], law: str, changes: dict[str, Any], threads: int = 0
+    scenarios: list[Scenario], law: str, changes: dict[str, Any], threads: int | None = None
 ) -> Presses:
     """Simulate every press under one law with some parameters changed, in threads of the core, the GIL released."""
     laws = [design(law, s.device, s.timing, **changes) for s in scenarios]
     goals = np.array([_goal(s) for s in scenarios])
     columns = LAWS[law]._press(  # type: ignore[attr-defined]
-        [s.setup() for s in scenarios], laws, goals.tolist(), threads, RunLimits(), SweepProgress()
+        [s.setup() for s in scenarios],
+        laws,
+        goals.tolist(),
+        thread_count(threads),
+        RunLimits(),
+        SweepProgress(),
     )
     return Presses(columns=columns, goals=goals)
 

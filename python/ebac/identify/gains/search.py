@@ -43,7 +43,7 @@ class GainsSearch:
         scenarios: tuple[Scenario, ...],
         loop: LoopModel,
         limits: Limits,
-        threads: int,
+        threads: int | None,
         progress: Callable[[int, int], None] | None,
         evaluations: int,
     ) -> None:

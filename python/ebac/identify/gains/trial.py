@@ -110,7 +110,7 @@ class Trial:
     law: str
     scenarios: tuple[Scenario, ...]
     limits: Limits
-    threads: int
+    threads: int | None
 
     def measure(self, kp: float, kd: float) -> Presses:
         """Run all presses."""

@@ -66,7 +66,7 @@ def sweep(
     limits : RunLimits, optional
         A run beyond these ends early and is called `diverged`. (Those of a device are `limits` of `simulate`.)
     threads : int, optional
-        Threads of this process, or of each worker of `executor`; default: one per core, or 1 under an executor.
+        Threads of this process, or of each worker of `executor`; default: one per usable core, or 1 under an executor.
     executor : concurrent.futures.Executor, optional
         Runs bundles elsewhere: threads, processes, or a cluster (Dask: `Client(...).get_executor()`).
     bundle : int, optional

@@ -58,7 +58,7 @@ def tune(
     seed : int
         Gives each hand its noise and jitter.
     threads : int, optional
-        Default: one per core.
+        Default: one per usable core.
     progress : callable, optional
         Called with (points done, points in all).
 

@@ -37,9 +37,9 @@ Point = tuple[Timing, float]
 
 
 def zwidth(
-    base: Scenario | None = None,
     laws: Laws | None = None,
     *,
+    base: Scenario | None = None,
     delays: Sequence[int] = (0, 1, 2),
     dampings: Sequence[float] | Numbers = DAMPINGS,
     least: float = 100.0,
@@ -59,10 +59,10 @@ def zwidth(
 
     Parameters
     ----------
-    base : Scenario, optional
-        Device, hand and the rest; the position of its wall is the surface. Default: the reference scenario, 3 s.
     laws : law, sequence of laws, or mapping of names to laws
         As `sweep` takes them; default: every law of `LAWS`.
+    base : Scenario, optional
+        Device, hand and the rest; the position of its wall is the surface. Default: the reference scenario, 3 s.
     delays : sequence of int
         Samples of delay, [0, 8].
     dampings : array-like
