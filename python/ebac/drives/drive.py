@@ -10,8 +10,8 @@ from typing import Self
 from ebac._util.exception_notes import noted_on
 from ebac._util.wrong_calls import plain_constructor
 from ebac.drives import faults
+from ebac.drives.bus_node import BusNode
 from ebac.drives.errors import DriveFault, WrongAnswer, WrongState
-from ebac.drives.node import Node
 from ebac.drives.state import AUTOMATIC, Command, State, Statusword, path
 
 #: Modes of operation this package uses (CiA 402-2, object 0x6060).
@@ -21,10 +21,10 @@ _POLL, _DEADLINE = 0.002, 2.0
 
 
 @plain_constructor
-class Drive(Node):
+class Drive(BusNode):
     """A CiA 402 drive on a bus. As a context manager it is disabled on exit, whatever happened.
 
-    Get it from `DriveBus.drive`; the parameters are those of `Node`.
+    Get it from `DriveBus.drive`; the parameters are those of `BusNode`.
     """
 
     def __enter__(self) -> Self:

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 NMT = {"start": 0x01, "stop": 0x02, "pre-operational": 0x80, "reset": 0x81, "reset-comm": 0x82}
 
 
-class Node:
+class BusNode:
     """A CANopen node on a bus. Threads may share it: one SDO is under way at a time.
 
     Parameters
