@@ -154,7 +154,7 @@ def test_whatever_stands_in_a_file_is_taken_or_refused_by_its_place(
     file = tmp_path_factory.mktemp("fuzz") / "any.toml"
     file.write_text(tomli_w.dumps(table), encoding="utf-8")
     try:
-        drives.load(file, nodes=[] if name == "joystick" else [1]).load()
+        drives.load(file, nodes=[] if name == "joystick" else [1]).bus_load()
     except drives.ProfileError as error:
         assert str(error).startswith(str(file)) or "profile" in str(place)  # noqa: PT017
 
@@ -211,7 +211,7 @@ def test_every_profile_of_the_package_is_right_and_fits_a_bus(name: str) -> None
     network = drives.load(name, nodes=() if name.startswith("joystick") else (1, 2))
     three = name == "joystick-3"
     assert [node.id for node in network.nodes] == [1, 2, 3][: 2 + three]
-    assert network.load().share == pytest.approx(0.6 if three else 0.52, abs=0.015)
+    assert network.bus_load().share == pytest.approx(0.6 if three else 0.52, abs=0.015)
     assert network.check_load() is None
     for node in network.nodes:
         assert node.profile.about
@@ -230,8 +230,8 @@ def test_a_node_changes_keys_of_its_profile_and_no_other(tmp_path: Path) -> None
     assert second.profile.pdos == first.profile.pdos
     (chosen,) = drives.load(file, nodes=[2]).nodes
     assert chosen == second
-    assert drives.load(file, nodes=[2]).load().share == pytest.approx(
-        drives.load(file).load().share
+    assert drives.load(file, nodes=[2]).bus_load().share == pytest.approx(
+        drives.load(file).bus_load().share
     )
 
 
@@ -384,7 +384,7 @@ def test_a_pdo_is_written_off_empty_filled_counted_on(
 
 
 def test_the_load_of_the_joystick_is_515_us_of_each_millisecond() -> None:
-    load = drives.load("joystick").load()
+    load = drives.load("joystick").bus_load()
     cyclic = [t for t in load.traffic if "heartbeat" not in t.name]
     assert sum(t.bits for t in cyclic) == 515
     assert drives.frame_bits(0) == 55
@@ -411,7 +411,7 @@ def test_a_bus_too_busy_is_refused_and_a_busy_one_warned_of(tmp_path: Path) -> N
     text = read_source("joystick").text
     file.write_text(text + other, encoding="utf-8")
     network = drives.load(file)
-    assert network.load().share == pytest.approx(0.787, abs=1e-3)
+    assert network.bus_load().share == pytest.approx(0.787, abs=1e-3)
     assert "79 %" in (network.check_load() or "")
     file.write_text(text.replace("1_000_000", "500_000"), encoding="utf-8")
     with pytest.raises(drives.ProfileError, match="refused over 90 %; raise the bit rate"):

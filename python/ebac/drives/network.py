@@ -63,7 +63,7 @@ class Network:
     bitrate: int = 1_000_000
     others: tuple[Traffic, ...] = ()
 
-    def load(self) -> BusLoad:
+    def bus_load(self) -> BusLoad:
         """Return the worst-case load of the bus."""
         periods = [sync_period(node.profile.values) for node in self.nodes]
         frames = [frame for node in self.nodes for frame in node.profile.traffic(node.id)]
@@ -78,7 +78,7 @@ class Network:
         ProfileError
             When it is so busy that nothing else gets through.
         """
-        load = self.load()
+        load = self.bus_load()
         if load.refused:
             raise ProfileError(f"{self.name}: {load.describe()}")
         return f"{self.name}: {load.describe()}" if load.warned else None

@@ -274,7 +274,7 @@ def network_of(profile: str, node: list[int] | None, where: BusOptions) -> Netwo
 
 def about(network: Network) -> dict[str, Any]:
     """Return the JSON document of a network."""
-    load = network.load()
+    load = network.bus_load()
     return {
         "profile": network.name,
         "bitrate_bit_per_s": load.bitrate,

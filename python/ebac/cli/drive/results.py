@@ -36,7 +36,7 @@ def changes(found: Sequence[Change], none: str) -> None:
 
 def load(network: Network) -> None:
     """Say how busy the bus will be."""
-    found = network.load()
+    found = network.bus_load()
     output.say(f"{found.describe()[0].upper()}{found.describe()[1:]}.")
 
 

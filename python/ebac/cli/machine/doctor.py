@@ -77,7 +77,7 @@ def _bus(path: Path) -> Finding:
     from ebac.realtime import Finding
 
     known = Configuration.load(path)
-    load, dt = known.drives.load(), known.timing.dt
+    load, dt = known.drives.bus_load(), known.timing.dt
     least, most = exchange_times(known)
     waits = known.answer_share * dt
     verdict: Verdict = "good" if most <= waits else "fair" if least <= waits else "bad"
