@@ -101,11 +101,11 @@ def test_a_configuration_says_what_is_wrong(
         SensorConfig(**wrong)  # type: ignore[arg-type]
 
 
-def test_a_configuration_survives_its_table() -> None:
-    config = SensorConfig(
-        host="10.0.0.7", rotation=TURNED, sign=-1, bias=(1.0, 0.0, 0.0, 0.0, 0.0, 0.5)
-    )
-    assert SensorConfig.from_table(config.to_table()) == config
+def test_a_configuration_is_read_from_its_table() -> None:
+    bias = (1.0, 0.0, 0.0, 0.0, 0.0, 0.5)
+    table = {"host": "10.0.0.7", "rotation": [list(row) for row in TURNED], "bias": list(bias)}
+    config = SensorConfig(host="10.0.0.7", rotation=TURNED, bias=bias)
+    assert SensorConfig.from_table(table) == config
     with pytest.raises(ValueError, match="did you mean 'port'"):
         SensorConfig.from_table({"prt": 1})
 

@@ -133,28 +133,8 @@ class SimulatedNodes(Protocol):
         """Give every frame on its way out: identifier, data."""
 
 
-class Counts(Protocol):
-    """What went over one end of a bus."""
-
-    @property
-    def sent(self) -> int:
-        """Frames put on the bus."""
-
-    @property
-    def refused(self) -> int:
-        """Frames the bus did not take."""
-
-    @property
-    def received(self) -> int:
-        """Frames taken from the bus."""
-
-    @property
-    def lost(self) -> int:
-        """Frames that found the receive queue full."""
-
-
 @dataclass(kw_only=True)
-class _Counted:
+class Counts:
     """Frames, counted here because python-can does not."""
 
     sent: int = 0
@@ -181,7 +161,7 @@ class Simulation:
 
     def __init__(self, bus: can.BusABC, nodes: SimulatedNodes) -> None:
         self.bus = bus
-        self.counts = _Counted()
+        self.counts = Counts()
         self._nodes = nodes
         self._over = threading.Event()
         self._failure: Exception | None = None

@@ -150,11 +150,6 @@ class Gastroscopy:
         return dict(_core._Navigation.units())
 
     @property
-    def within_limit(self) -> bool:
-        """Whether no force of the bending section passed the patient's limit."""
-        return bool(self.findings["most_section"] <= self.procedure.lumen.patient.force_limit)
-
-    @property
     def trace(self) -> Trace:
         """The record as a trace, with `tick` and `fault`: what `ebac log` reads."""
         from ebac.gastroscope.log import trace_of

@@ -120,13 +120,6 @@ class SensorConfig:
 
         return cls(**read_table(table, dataclasses.fields(cls), where))
 
-    def to_table(self) -> dict[str, Any]:
-        """Return the sensor as a table for TOML, SI units throughout."""
-        table = dataclasses.asdict(self)
-        table["rotation"] = [list(row) for row in self.rotation]
-        table["bias"] = list(self.bias)
-        return table
-
     def check_scale(self, *, timeout: float = 1.0) -> None:
         """Compare the counts with those on the sensor's own page; nothing where `http_port` is 0.
 

@@ -16,7 +16,6 @@ but the fitted red lines of Fig. 8 and 9 take any offset out.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import pi, sqrt
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -42,13 +41,6 @@ TABLE_I = (
     TableEntry(shape="circle", sd_m=1.25e-3, error_m=0.91e-3),
     TableEntry(shape="circle", sd_m=1.31e-3, error_m=0.97e-3),
 )
-#: mean |d| / rms of some distributions of d.
-RATIOS = {
-    "a sine or an ellipse": 2 * sqrt(2) / pi,
-    "evenly spread": sqrt(3) / 2,
-    "normal": sqrt(2 / pi),
-    "double exponential": 1 / sqrt(2),
-}
 
 
 def mean(shape: str) -> TableEntry:
