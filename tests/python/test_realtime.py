@@ -10,6 +10,7 @@ from typer.testing import CliRunner
 from ebac import realtime
 from ebac.cli import app
 from ebac.realtime.jitter import parse_cyclictest
+from ebac.realtime.mode import MODES, mode_named
 
 HISTOGRAM = """# /dev/cpu_dma_latency set to 0us
 # Histogram
@@ -142,6 +143,10 @@ def test_jitter_on_the_command_line(tmp_path: Path) -> None:
     refused = CliRunner().invoke(app, ["jitter", "--realtime", "enforce", "--cpu", "1023"])
     assert refused.exit_code == 1
     assert "CPU 1023" in refused.output
+
+
+def test_every_mode_of_the_core_has_its_name() -> None:
+    assert {mode_named(name) for name in MODES} == set(realtime.RealTimeMode)
 
 
 def test_turns_are_pooled() -> None:

@@ -23,6 +23,7 @@ from ebac.hardware.signs import Signs
 from ebac.hardware.tables import ConfigurationError
 from ebac.hardware.zero import Zero
 from ebac.laws import CoreLaw
+from ebac.realtime.mode import Mode
 from ebac.scenario import Environment, Scenario
 from ebac.tuned_laws import on_its_observer
 
@@ -128,7 +129,7 @@ class Configuration:
     seconds: float = 10.0
     soft_start: float = 0.2
     ramp_down: float = 0.2
-    mode: Literal["auto", "enforce", "off"] = "auto"
+    mode: Mode = "auto"
     realtime: RealTime = field(default_factory=RealTime)
     memory: float = 60.0
     sync: float | None = None

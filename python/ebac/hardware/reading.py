@@ -19,6 +19,7 @@ from ebac.hardware.tables import known, on_top, refusing, table
 from ebac.hardware.world_place import never_reached
 from ebac.hardware.zero import Zero
 from ebac.laws import LAWS, design
+from ebac.realtime.mode import MODES
 from ebac.scenario import Environment, Scenario
 
 if TYPE_CHECKING:
@@ -262,9 +263,8 @@ def _by_device(device: Device, name: str, wrong: str) -> tuple[tuple[str, ...], 
 
 def _realtime(source: Source) -> dict[str, Any]:
     found = table(source, ("realtime",))
-    modes = ["auto", "enforce", "off"]
     return {
-        "mode": word(source, ("realtime", "mode"), found.get("mode", "auto"), modes),
+        "mode": word(source, ("realtime", "mode"), found.get("mode", "auto"), MODES),
         "realtime": on_top(source, ("realtime",), RealTime(), apart=("mode",)),
     }
 

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from ebac import _core
 from ebac.hardware.configuration_fields import check_seconds
+from ebac.realtime.mode import mode_named
 
 if TYPE_CHECKING:
     from ebac.drives import Node
@@ -70,7 +71,7 @@ def run_setup(
         sensor=None if backend.sensor is None else backend.sensor.core(),
         rows=min(ticks, ceil(known.memory / dt)) + _MORE_ROWS,
         ring=True,
-        mode=_core.RealTimeMode[known.mode.upper()],
+        mode=mode_named(known.mode),
         realtime=known.realtime,
         aim=backend.aim,
         motor_sign=list(signs.motor),

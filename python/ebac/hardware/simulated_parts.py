@@ -36,12 +36,12 @@ class Request:
 
         That CPUs stay awake holds for the machine, so the loop's own request is enough.
         """
-        from ebac._core import RealTimeMode
+        from ebac.realtime.mode import mode_named
 
         lock = loop.lock_memory if lock_memory is None else lock_memory
         priority = max(1, loop.priority - 1)
         asked = loop.replace(priority=priority, cpu=-1, lock_memory=lock, stay_awake=False)
-        return cls(mode=RealTimeMode[mode.upper()], realtime=asked)
+        return cls(mode=mode_named(mode), realtime=asked)
 
 
 @contextmanager

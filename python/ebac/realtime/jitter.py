@@ -8,14 +8,14 @@ import subprocess
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from math import ceil
-from typing import Any, Literal, Self
+from typing import Any, Self
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ebac import _core
+from ebac.realtime.mode import Mode, mode_named
 
-Mode = Literal["auto", "enforce", "off"]
 #: The longest that is measured [s].
 LONGEST = 86400.0
 #: Turns of two programs that are measured side by side last no longer [s].
@@ -167,12 +167,10 @@ def measure(
         raise ValueError(f"seconds = {seconds:g} s: must lie in (0, {LONGEST:g}] s")
     if not 10 <= rate <= 1e5:
         raise ValueError(f"rate = {rate:g} Hz: must lie in [10, 100000] Hz")
-    if mode not in ("auto", "enforce", "off"):
-        raise ValueError(f"mode = {mode!r}: must be 'auto', 'enforce' or 'off'")
     lateness, skipped, grants = _core._measure_jitter(
         1 / rate,
         max(2, round(seconds * rate)),
-        _core.RealTimeMode[mode.upper()],
+        mode_named(mode),
         options or _core.RealTime(),
     )
     return Jitter(lateness=lateness, dt=1 / rate, skipped=skipped, grants=grants)

@@ -27,7 +27,6 @@ if TYPE_CHECKING:
     from ebac.drives.simulate import Simulation
     from ebac.hardware.simulated_parts import Request
 
-MODES = ("auto", "enforce", "off")
 #: How often the main thread looks after the others [s].
 _LOOK = 0.1
 
@@ -154,6 +153,7 @@ def simulate(
     from ebac._core import DriveWiring, RealTime, SharedForce, SharedHandTarget
     from ebac.drives.simulate import Simulation
     from ebac.hardware.simulated_parts import Request, sensor_of, unheld
+    from ebac.realtime.mode import MODES
 
     if realtime not in MODES:
         output.fail(unknown(f"--realtime {realtime}", realtime, MODES))

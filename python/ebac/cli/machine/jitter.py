@@ -14,8 +14,6 @@ from ebac.cli.machine.grants import show_refused
 if TYPE_CHECKING:
     from ebac.realtime import Cyclictest, Jitter
 
-MODES = ("auto", "enforce", "off")
-
 
 def jitter(
     to: ResultOptions,
@@ -52,6 +50,7 @@ def jitter(
     * `ebac jitter --seconds 4 --no-stay-awake`: the effect of letting idle CPUs sleep; cyclictest never lets them.
     """
     from ebac.realtime import RealTime, beside_cyclictest, measure
+    from ebac.realtime.mode import MODES
 
     folder = to.folder("jitter", as_json=as_json)
     if realtime not in MODES:
