@@ -6,10 +6,7 @@ import weakref
 from collections.abc import Callable
 from typing import Any
 
-import numpy as np
-from numpy.typing import NDArray
-
-Values = NDArray[np.float64]
+from ebac._util.arrays import Values
 
 
 class Carried:

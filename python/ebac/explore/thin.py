@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-Numbers = NDArray[np.float64]
+from ebac._util.arrays import Values
 
 #: Bins across the first picture, before the browser knows its width.
 BINS = 1000
@@ -17,12 +17,12 @@ BINS = 1000
 class Bands:
     """What is drawn of a column: one place a bin, or one a row; `least` is NaN where a place is one row."""
 
-    t: Numbers
-    least: Numbers
-    most: Numbers
+    t: Values
+    least: Values
+    most: Values
 
 
-def bands(values: NDArray[np.float32], t: Numbers, bins: int = BINS) -> Bands:
+def bands(values: NDArray[np.float32], t: Values, bins: int = BINS) -> Bands:
     """Return what to draw: every row up to four a bin, else the least and the most of each bin.
 
     What `thin.js` does with the window on the screen. A bin without a number gives NaN, so that a gap stays one.

@@ -7,12 +7,11 @@ from typing import TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
+from ebac._util.arrays import Values
 from ebac.identify.bias import largest_drift, likely_drift, likely_noise
 from ebac.identify.intervals import loose_inverse
 from ebac.identify.problem import Problem
 from ebac.identify.search import least_squares
-
-Values = NDArray[np.float64]
 
 #: Rounds of: values, then drift; settled when it changes by less than this share.
 DRIFT_ROUNDS, SAME_DRIFT = 4, 0.1

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ebac._core import ArmGains, ArmRecord
+from ebac._util.arrays import Values
 from ebac.identify.problem import Problem
 from ebac.identify.signals import rough
 
@@ -15,8 +16,6 @@ from ebac.identify.signals import rough
 WIDEST = 300.0
 #: First step of the logarithm of the noise, and how near is near enough.
 STEP, NEAR = 0.1, 0.02
-
-Values = NDArray[np.float64]
 
 
 def minus_two_log(

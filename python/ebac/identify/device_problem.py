@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ebac._core import ArmRecord
+from ebac._util.arrays import Values
 from ebac.identify.missing import left_for
 from ebac.identify.parameters import BOUNDS, Parameters
 from ebac.identify.problem import Problem
@@ -24,8 +25,6 @@ from ebac.identify.signals import (
     unknown_force,
 )
 from ebac.identify.target import Target
-
-Values = NDArray[np.float64]
 
 #: Rows in which it must slide.
 LEAST_SLIDING = 200

@@ -3,12 +3,10 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ebac._core import Recorded
 from ebac._util.arguments import number, whole
-
-Values = NDArray[np.float64]
+from ebac._util.arrays import Values
 
 
 def _times(amplitude: float, seconds: float, dt: float) -> Values:

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ebac._util.arrays import Values
 from ebac.identify import unrecorded_motor
 from ebac.identify.beside_drift import NOT_A_DRIFT, BesideDrift, beside_drift
 from ebac.identify.bias import drifting, largest_drift, likely_drift, likely_noise, without_noise
@@ -18,8 +19,6 @@ from ebac.identify.moving_target import of_late_paths
 from ebac.identify.parameters import Parameters, kind
 from ebac.identify.problem import Problem
 from ebac.identify.search import Found, least_squares
-
-Values = NDArray[np.float64]
 
 #: Rounds of: filter for the guess, search with that filter.
 MOST_ROUNDS = 6

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ebac._util.arguments import unknown, unknown_name
+from ebac._util.arrays import Values
 from ebac.identify.guess import regression, solve
 from ebac.identify.intervals import Z95
 from ebac.identify.parameters import HAND, Parameters, kind
@@ -18,8 +19,6 @@ from ebac.identify.recording import Recording
 from ebac.identify.recording_list import require_recordings
 from ebac.identify.response import Densities, densities
 from ebac.identify.target import Target, longest, require_target
-
-Values = NDArray[np.float64]
 
 ASKED = HAND
 #: What to do where a log does not determine a parameter.

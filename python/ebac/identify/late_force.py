@@ -6,15 +6,13 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ebac._util.arrays import Values
 from ebac.identify.bias import BELIEVED
 from ebac.identify.fit import Fitted, Point, search_from
 from ebac.identify.parameters import kind
 from ebac.identify.problem import Problem
 from ebac.identify.whole_ticks import in_cell, profile, with_delays
-
-Values = NDArray[np.float64]
 
 #: Lags that are tried [s]; a filter of a sensor is one of these, nearly.
 LAGS = (2.5e-4, 5e-4, 1e-3, 2e-3, 4e-3, 8e-3, 16e-3, 32e-3)

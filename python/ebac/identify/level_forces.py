@@ -8,10 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ebac._core import ArmGains
+from ebac._util.arrays import Values
 from ebac.identify.parameters import BEFORE_LEVELS, BOUNDS, kind
 from ebac.identify.problem import Problem
-
-Values = NDArray[np.float64]
 
 #: Least K0 that a force is divided by [N/m].
 SOFTEST = 1e-3

@@ -8,12 +8,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from ebac._util.arrays import Values
 from ebac._util.report import plural
 
 if TYPE_CHECKING:
     from ebac.identify.recording import Recording
 
-Values = NDArray[np.float64]
 
 #: Rows in a row that stand at the same extreme; fewest rows in all, of several times and of one; and their share.
 RUN, LEAST, LONG, SHARE = 3, 10, 30, 0.001

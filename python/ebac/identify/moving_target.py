@@ -10,13 +10,11 @@ from dataclasses import replace
 from math import sqrt
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ebac._core import ArmGains
+from ebac._util.arrays import Values
 from ebac.identify.problem import Problem
 from ebac.identify.unrecorded_motor import SQUARE, found_late, parts
-
-Values = NDArray[np.float64]
 
 
 def of_late_paths(

@@ -7,12 +7,12 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from ebac._util.arrays import Values
 from ebac.identify.missing import force_of_hand
 from ebac.identify.recording import Recording
 from ebac.identify.recording_list import require_recordings
 from ebac.identify.target import Target, indicators, lagged, require_target
 
-Values = NDArray[np.float64]
 Lines = NDArray[np.complex128]
 
 #: Longest segment [s]: lines every 0.5 Hz.

@@ -7,10 +7,8 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
-Values = NDArray[np.float64]
-Matrix = NDArray[np.float64]
+from ebac._util.arrays import Matrix, Values
 
 #: A direction flatter than this, as a share of the steepest one, is no way to go [1].
 FLATTEST = 1e-12

@@ -12,6 +12,7 @@ from weakref import WeakKeyDictionary
 import numpy as np
 from numpy.typing import NDArray
 
+from ebac._util.arrays import Values
 from ebac.identify.limits import at_limits
 from ebac.identify.recording import Recording
 from ebac.identify.target import Target, lagged
@@ -224,9 +225,6 @@ def folded(scores: NDArray[np.float64], fold: Fold) -> NDArray[np.float64]:
     """Return scores, shape (parameters, rows), summed where they lie on one another."""
     length = int(fold.max()) + 1
     return np.array([np.bincount(fold, weights=row, minlength=length) for row in scores])
-
-
-Values = NDArray[np.float64]
 
 
 def ripple(recording: Recording) -> Values:

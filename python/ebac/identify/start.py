@@ -5,15 +5,13 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ebac._util.arrays import Values
 from ebac.identify.guess import regression, solve
 from ebac.identify.parameters import BEFORE_LEVELS, SHARED
 from ebac.identify.problem import Problem
 from ebac.identify.recording import Recording
 from ebac.identify.response import guess_by_response
-
-Values = NDArray[np.float64]
 
 
 def better_guess(problem: Problem) -> Values:

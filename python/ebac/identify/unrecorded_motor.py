@@ -20,6 +20,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from ebac._util.arrays import Values
 from ebac.identify.parameters import SHARED, kind
 
 if TYPE_CHECKING:
@@ -37,8 +38,6 @@ APART = 0.03
 MATTERS = 0.005
 #: Harmonics of a stair's sawtooth.
 HARMONICS = np.arange(1, 200)
-
-Values = NDArray[np.float64]
 
 
 def late(r: Recording) -> float:

@@ -12,14 +12,12 @@ from dataclasses import dataclass, replace
 from math import inf
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ebac._util.arrays import Values
 from ebac.identify.fit import Fitted, Point, fitted, search_from
 from ebac.identify.parameters import BOUNDS, kind
 from ebac.identify.problem import Problem
 from ebac.identify.start import better_guess
-
-Values = NDArray[np.float64]
 
 #: Delays that are tried first; then their neighbours, downhill [ticks].
 TRIED = (0, -1, 1, -2, 2, 3, 5, -5, 8, -10, 12, 20, 35)

@@ -10,18 +10,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ebac._core import Corner, Disc, Free, Wall
+from ebac._util.arrays import Values
 from ebac._util.foreign_worlds import foreign
 from ebac.scenario import Environment
 
-Floats = NDArray[np.float64]
-Distance = Callable[[Floats], Floats]
+Distance = Callable[[Values], Values]
 #: The part of space that is drawn reaches so far from the middle [m], in this many cells.
 REACH, CELLS = 0.07, 44
 #: How far walls and discs, which have no height, are drawn up and down [m].
 _HALF_HEIGHT = 0.03
 
 
-def surface(world: Environment, *, cells: int = CELLS) -> tuple[Floats, NDArray[np.int32]]:
+def surface(world: Environment, *, cells: int = CELLS) -> tuple[Values, NDArray[np.int32]]:
     """Return the surface of a world at the time 0, within 70 mm of the middle.
 
     Parameters
@@ -71,7 +71,7 @@ def _upright(flat: Distance) -> Distance:
     return lambda p: np.maximum(flat(p), np.abs(p[:, 2]) - _HALF_HEIGHT)
 
 
-def nets(distance: Distance, cells: int) -> tuple[Floats, NDArray[np.int32]]:
+def nets(distance: Distance, cells: int) -> tuple[Values, NDArray[np.int32]]:
     """Return surface nets (Gibson 1998): a vertex in every cell that the surface passes, four neighbours a face."""
     line = np.linspace(-REACH, REACH, cells + 1)
     nodes = np.stack(np.meshgrid(line, line, line, indexing="ij"), axis=-1)

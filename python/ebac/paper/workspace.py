@@ -5,10 +5,10 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ebac import presets
 from ebac._core import Gimbal
+from ebac._util.arrays import Values
 from ebac.paper.finding import Finding, judge, row
 
 if TYPE_CHECKING:
@@ -16,7 +16,6 @@ if TYPE_CHECKING:
 
     from ebac.plot import Picture
 
-Numbers = NDArray[np.float64]
 STEPS = 41
 
 
@@ -28,13 +27,13 @@ def joystick() -> Gimbal:
     return kinematics
 
 
-def angles(gimbal: Gimbal) -> Numbers:
+def angles(gimbal: Gimbal) -> Values:
     """Return joint angles over the whole range of eq. (11) [rad], shape (STEPS, STEPS, 2)."""
     q = np.linspace(-gimbal.limit, gimbal.limit, STEPS)
     return np.stack(np.meshgrid(q, q, indexing="ij"), axis=-1)
 
 
-def surface(gimbal: Gimbal) -> Numbers:
+def surface(gimbal: Gimbal) -> Values:
     """Return the handle positions x, y, z [m] over the whole range, shape (STEPS, STEPS, 3)."""
     grid = angles(gimbal).reshape(-1, 2)
     points = [(*gimbal.forward(q), gimbal.height(q)) for q in grid.tolist()]
@@ -68,7 +67,7 @@ def fig6() -> Finding:
     )
 
 
-def _turned(grid: Numbers, radius: float) -> Numbers:
+def _turned(grid: Values, radius: float) -> Values:
     """Return where two rotations about crossed axes, multiplied out, take the end of a lever [m]."""
     first, second = np.moveaxis(grid, -1, 0)
     tip = np.zeros((*first.shape, 3))
@@ -111,7 +110,7 @@ def fig7() -> Finding:
     )
 
 
-def _draw_surface(points: Numbers) -> Picture:
+def _draw_surface(points: Values) -> Picture:
     from ebac.plot import new_figure
 
     x, y, z = 1e3 * np.moveaxis(points, -1, 0)
@@ -129,7 +128,7 @@ def _draw_surface(points: Numbers) -> Picture:
     return figure
 
 
-def _draw_plan(points: Numbers, radius: float) -> Picture:
+def _draw_plan(points: Values, radius: float) -> Picture:
     from ebac.plot import dress, new_figure
 
     x, y, _ = 1e3 * np.moveaxis(points, -1, 0)

@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from ebac.peers.row import Numbers
+from ebac._util.arrays import Values
 
 #: Seconds until it is taken for hung: a million triangles are sorted first.
 PATIENCE = 600
@@ -18,9 +18,9 @@ PATIENCE = 600
 
 def contact(
     program: Path,
-    vertices: Numbers,
+    vertices: Values,
     faces: NDArray[np.int64],
-    places: Numbers,
+    places: Values,
     repeats: int,
 ) -> float:
     """Return the time of a contact [s]; the first of the places lies outside.

@@ -8,14 +8,15 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ebac.peers.row import Numbers, program, quickest
+from ebac._util.arrays import Values
+from ebac.peers.row import program, quickest
 
 #: Radius of the ball that stands for a point [m]: coal has no points.
 POINT = 1e-9
 
 
 def distance(
-    vertices: Numbers, faces: NDArray[np.int64], places: Numbers, repeats: int
+    vertices: Values, faces: NDArray[np.int64], places: Values, repeats: int
 ) -> tuple[float, float]:
     """Return the time of a distance and of the call from Python around it [s].
 
@@ -35,7 +36,7 @@ def distance(
     return taken - empty, empty
 
 
-def _asking(coal: Any, solid: Any, places: Numbers) -> Callable[[], None]:
+def _asking(coal: Any, solid: Any, places: Values) -> Callable[[], None]:
     """Return a function that asks for the distance of every place."""
     ball, here, there = coal.Sphere(POINT), coal.Transform3s(), coal.Transform3s()
     request, result = coal.DistanceRequest(), coal.DistanceResult()

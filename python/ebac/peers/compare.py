@@ -7,10 +7,11 @@ from collections.abc import Callable, Iterator
 import numpy as np
 
 from ebac._core import Free
+from ebac._util.arrays import Values
 from ebac._util.cores import usable_cores
 from ebac.metrics import contact, ideal_rest
 from ebac.peers import mujoco_peer, own, scipy_peer
-from ebac.peers.row import Numbers, PeerRow, Plant, program
+from ebac.peers.row import PeerRow, Plant, program
 from ebac.scenario import Scenario
 from ebac.simulation import simulate
 
@@ -131,8 +132,8 @@ def _errors(scenario: Scenario, step: Callable[[str], None]) -> Iterator[PeerRow
         )  # fmt: skip
 
 
-def _error(plant: Plant, places: Numbers) -> float:
-    t: Numbers = plant.step * np.arange(1.0, len(places) + 1)
+def _error(plant: Plant, places: Values) -> float:
+    t: Values = plant.step * np.arange(1.0, len(places) + 1)
     return float(np.abs(places - plant.free(t)).max())
 
 

@@ -7,7 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from ebac.peers.row import Numbers, Plant, program, quickest
+from ebac._util.arrays import Values
+from ebac.peers.row import Plant, program, quickest
 
 #: Runs in one rollout, their steps, and substeps where a law in Python steps in.
 RUNS, STEPS, SUBSTEPS = 8, 6000, 10
@@ -31,7 +32,7 @@ def _xml(plant: Plant, step: float, *, wall: bool) -> str:
     </mujoco>"""
 
 
-def rollout(plant: Plant, *, wall: bool, threads: int, repeats: int) -> tuple[float, Numbers]:
+def rollout(plant: Plant, *, wall: bool, threads: int, repeats: int) -> tuple[float, Values]:
     """Return the time per step and thread [s] of MuJoCo's threaded rollout, and one run's positions [m]."""
     mujoco: Any = program("mujoco")
     rollouts: Any = program("mujoco.rollout")

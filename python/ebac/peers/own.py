@@ -10,9 +10,10 @@ import numpy as np
 
 from ebac._core import Free, SweepProgress
 from ebac._core import RunLimits as Limits
+from ebac._util.arrays import Values
 from ebac._util.cores import usable_cores
 from ebac.laws import design
-from ebac.peers.row import Numbers, quickest
+from ebac.peers.row import quickest
 from ebac.scenario import Scenario
 from ebac.simulation import simulate
 from ebac.studies.maps import AXES, PRESETS, stability_map
@@ -37,7 +38,7 @@ def sweep_tick(scenario: Scenario, repeats: int) -> float:
     )
 
 
-def free_run(scenario: Scenario) -> Numbers:
+def free_run(scenario: Scenario) -> Values:
     """Return the positions [m] in free motion, one a tick after the start."""
     trace = simulate(scenario.replace(environment=Free(), seconds=1.0), "direct")
     return np.asarray(trace.axis("true.x")[1:], float)

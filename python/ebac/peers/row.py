@@ -9,11 +9,9 @@ from time import perf_counter
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ebac._util.arrays import Values
 from ebac.scenario import Scenario
-
-Numbers = NDArray[np.float64]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -85,7 +83,7 @@ class Plant:
             step=scenario.timing.dt,
         )
 
-    def free(self, t: Numbers) -> Numbers:
+    def free(self, t: Values) -> Values:
         """Return the position [m] in free motion from rest at 0, in closed form."""
         matrix = np.array([[0.0, 1.0], [-self.stiffness / self.mass, -self.damping / self.mass]])
         rates, modes = np.linalg.eig(matrix.astype(complex))

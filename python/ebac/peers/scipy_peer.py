@@ -6,18 +6,19 @@ from typing import Any
 
 import numpy as np
 
+from ebac._util.arrays import Values
 from ebac.peers.mujoco_peer import spring
-from ebac.peers.row import Numbers, Plant, program, quickest
+from ebac.peers.row import Plant, program, quickest
 
 COUNT = 300
 
 
-def ticks(plant: Plant, *, wall: bool, repeats: int) -> tuple[float, Numbers]:
+def ticks(plant: Plant, *, wall: bool, repeats: int) -> tuple[float, Values]:
     """Return the time of a tick [s] at the default tolerance, and the positions [m]."""
     solve: Any = program("scipy.integrate").solve_ivp
     places: list[float] = []
 
-    def rate(_: float, z: Numbers, u: float) -> list[float]:
+    def rate(_: float, z: Values, u: float) -> list[float]:
         pull = plant.stiffness * (plant.target - z[0]) - plant.damping * z[1] - z[2]
         return [z[1], pull / plant.mass, (u - z[2]) / plant.lag]
 

@@ -9,8 +9,9 @@ from pathlib import Path
 import numpy as np
 
 from ebac import _core
+from ebac._util.arrays import Values
 from ebac.peers import chai3d_peer, coal_peer
-from ebac.peers.row import Numbers, PeerRow
+from ebac.peers.row import PeerRow
 from ebac.worlds.grid import Grid, Ints, Surface, cached_grid
 
 #: The ring: distance of its tube's middle from the axis, and radius of the tube [m].
@@ -106,7 +107,7 @@ def compare_worlds(
     return rows, missing
 
 
-def ring(around: int, along: int) -> tuple[Numbers, Ints]:
+def ring(around: int, along: int) -> tuple[Values, Ints]:
     """Return corners [m] and triangles of the ring."""
     a, b = np.meshgrid(_turns(around), _turns(along), indexing="ij")
     i, j = np.meshgrid(np.arange(around), np.arange(along), indexing="ij")
@@ -119,21 +120,21 @@ def ring(around: int, along: int) -> tuple[Numbers, Ints]:
     return _on_ring(a.ravel(), b.ravel(), 0.0), np.concatenate(halves)
 
 
-def path() -> Numbers:
+def path() -> Values:
     """Return a place outside, then a closed path below the surface [m], shape (n + 1, 3)."""
     turn = _turns(PLACES)
     below = _on_ring(3 * turn, 5 * turn, -OFF * (1 + 0.5 * np.sin(9 * turn)))
     return np.concatenate([_on_ring(np.zeros(1), np.zeros(1), OFF), below])
 
 
-def near(count: int, seed: int = 1) -> Numbers:
+def near(count: int, seed: int = 1) -> Values:
     """Return places at random within 1 mm of the surface [m]."""
     random = np.random.default_rng(seed)
     a, b = random.uniform(0, 2 * np.pi, (2, count))
     return _on_ring(a, b, random.uniform(-OFF, OFF, count))
 
 
-def exact(points: Numbers) -> tuple[Numbers, Numbers]:
+def exact(points: Values) -> tuple[Values, Values]:
     """Return distance [m] and direction of the smooth ring, in closed form."""
     flat = np.hypot(points[:, 0], points[:, 1])
     off = points * np.column_stack([1 - RING / flat, 1 - RING / flat, np.ones_like(flat)])
@@ -141,11 +142,11 @@ def exact(points: Numbers) -> tuple[Numbers, Numbers]:
     return length - TUBE, off / length[:, None]
 
 
-def _turns(count: int) -> Numbers:
+def _turns(count: int) -> Values:
     return 2 * np.pi * np.arange(count) / count
 
 
-def _on_ring(a: Numbers, b: Numbers, off: Numbers | float) -> Numbers:
+def _on_ring(a: Values, b: Values, off: Values | float) -> Values:
     """Return places at angles around the axis and around the tube, off the surface by so much."""
     flat = RING + (TUBE + off) * np.cos(b)
     return np.column_stack([flat * np.cos(a), flat * np.sin(a), (TUBE + off) * np.sin(b)])
@@ -160,7 +161,7 @@ def _own(grid: Grid, repeats: int) -> tuple[float, float]:
 
 
 def _errors(
-    grid: Grid, subject: str, true: Callable[[Numbers], tuple[Numbers, Numbers]]
+    grid: Grid, subject: str, true: Callable[[Values], tuple[Values, Values]]
 ) -> list[PeerRow]:
     points = near(PLACES)
     d, out = grid.made().distances(points)

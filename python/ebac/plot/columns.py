@@ -9,10 +9,11 @@ from matplotlib.axes import Axes
 
 from ebac._util import formatting
 from ebac._util.arguments import require, several
+from ebac._util.arrays import Values
 from ebac._util.gaps import alone
 from ebac.plot.decades import limit_of, set_decades
 from ebac.plot.marks import mark_end, title
-from ebac.plot.style import Numbers, Picture, dress, legend, line, new_figure
+from ebac.plot.style import Picture, dress, legend, line, new_figure
 from ebac.trace import Trace
 
 #: Okabe and Ito's palette, which every eye distinguishes; then again, dashed.
@@ -76,7 +77,7 @@ def plot_columns(trace: Trace, names: Sequence[str]) -> Picture:
     return figure
 
 
-def _line(ax: Axes, t: Numbers, values: Numbers, i: int, label: str) -> None:
+def _line(ax: Axes, t: Values, values: Values, i: int, label: str) -> None:
     """Draw a column as a line, and as dots what stands between two gaps."""
     style = "-" if i < len(_SHADES) else "--"
     shade = _SHADES[i % len(_SHADES)]
@@ -106,7 +107,7 @@ def _dots(ax: Axes, trace: Trace, columns: Sequence[str]) -> None:
     set_decades(ax, limit)
 
 
-def _lines(trace: Trace, columns: Sequence[str]) -> Iterator[tuple[str, Numbers]]:
+def _lines(trace: Trace, columns: Sequence[str]) -> Iterator[tuple[str, Values]]:
     for name in columns:
         for axis in range(1 if trace[name].ndim == 1 else trace.axes):
             label = name if trace[name].ndim == 1 else f"{name}, axis {axis}"

@@ -8,13 +8,13 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.ticker import FuncFormatter
 
-from ebac.plot.style import Numbers
+from ebac._util.arrays import Values
 
 #: The scale ends here [kN/m]: bounds go far beyond.
 MOST = 1e4
 
 
-def limit_of(values: Iterable[Numbers]) -> float:
+def limit_of(values: Iterable[Values]) -> float:
     """Return the power of ten [kN/m] that all values [kN/m] are below, with room, at most `MOST`."""
     largest = max((np.abs(one[np.isfinite(one)]).max(initial=0.0) for one in values), default=0.0)
     return float(min(MOST, 10.0 ** np.ceil(np.log10(max(1.0, 5 * largest)))))

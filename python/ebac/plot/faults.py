@@ -6,8 +6,9 @@ from typing import TYPE_CHECKING
 
 from matplotlib.axes import Axes
 
+from ebac._util.arrays import Values
 from ebac.plot.marks import FAULT_COLOUR, fault_name
-from ebac.plot.style import Numbers, Picture, dress, legend, new_figure
+from ebac.plot.style import Picture, dress, legend, new_figure
 
 if TYPE_CHECKING:
     from ebac.faults import FaultCase
@@ -50,7 +51,7 @@ def plot_fault(case: FaultCase) -> Picture:
     return figure
 
 
-def _mark(ax: Axes, case: FaultCase, t: Numbers) -> None:
+def _mark(ax: Axes, case: FaultCase, t: Values) -> None:
     last = len(t) - 1
     begin, end = min(case.at, last), min(case.at + case.ticks, last)
     ax.axvspan(t[begin], t[end], color="#e6ab02", alpha=0.25, lw=0, label="fault injected")

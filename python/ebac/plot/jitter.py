@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from matplotlib.axes import Axes
 
-from ebac.plot.style import Numbers, Picture, dress, legend, new_figure
+from ebac._util.arrays import Values
+from ebac.plot.style import Picture, dress, legend, new_figure
 
 if TYPE_CHECKING:
     from ebac.realtime import Cyclictest, Jitter
@@ -29,9 +30,9 @@ def plot_jitter(found: Jitter, other: Cyclictest | None = None) -> Picture:
     """
     figure = new_figure(8, 4.2)
     ax = figure.subplots()
-    own: Numbers = 1e6 * np.maximum(found.lateness, 1e-7)
+    own: Values = 1e6 * np.maximum(found.lateness, 1e-7)
     most = max(own.max(), 1e6 * other.most if other else 0, 100)
-    edges: Numbers = np.logspace(
+    edges: Values = np.logspace(
         -1, np.ceil(np.log10(most)), round(_BINS * (np.ceil(np.log10(most)) + 1))
     )
     _bars(ax, own, np.ones(len(own)), edges, "ebac", found.row(), _OWN)
@@ -54,9 +55,9 @@ def plot_jitter(found: Jitter, other: Cyclictest | None = None) -> Picture:
 
 def _bars(
     ax: Axes,
-    values: Numbers,
-    weights: Numbers,
-    edges: Numbers,
+    values: Values,
+    weights: Values,
+    edges: Values,
     name: str,
     row: dict[str, float],
     colour: str,

@@ -11,8 +11,9 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter
 
 from ebac._util import formatting
+from ebac._util.arrays import Values
 from ebac.metrics import STILL_SWING
-from ebac.plot.style import Numbers, Picture, new_figure
+from ebac.plot.style import Picture, new_figure
 
 if TYPE_CHECKING:
     from ebac.studies.maps import MapAxis, StabilityMap
@@ -82,7 +83,7 @@ def _verdicts(figure: Figure, ax: Axes, found: StabilityMap) -> None:
 
 
 def _panel(
-    figure: Figure, ax: Axes, found: StabilityMap, values: Numbers, limit: float,
+    figure: Figure, ax: Axes, found: StabilityMap, values: Values, limit: float,
     shown: tuple[float, float], title: str,
 ) -> None:  # fmt: skip
     known = np.where(np.isfinite(values), values, shown[1])
@@ -100,7 +101,7 @@ def _panel(
     ax.set_title(f"{title}; limit{line}: {limit:.3g}", fontsize="medium")
 
 
-def _surface(found: StabilityMap, values: Numbers) -> tuple[Numbers, Numbers, Numbers]:
+def _surface(found: StabilityMap, values: Values) -> tuple[Values, Values, Values]:
     """Return what a contour runs over: borders, not single runs; over whole numbers, steps."""
     sizes = [
         1 if axis.whole else _window(n) for axis, n in zip(found.axes, values.T.shape, strict=True)
@@ -118,18 +119,18 @@ def _window(count: int) -> int:
     return max(1, count // 20) // 2 * 2 + 1
 
 
-def _median(values: Numbers, rows: int, columns: int) -> Numbers:
+def _median(values: Values, rows: int, columns: int) -> Values:
     padded = np.pad(values, ((rows // 2,) * 2, (columns // 2,) * 2), mode="edge")
     windows = np.lib.stride_tricks.sliding_window_view(padded, (rows, columns))
     return np.asarray(np.median(windows, axis=(2, 3)))
 
 
-def _edges(found: StabilityMap) -> tuple[Numbers, Numbers]:
+def _edges(found: StabilityMap) -> tuple[Values, Values]:
     along, up = found.axes
     return _cells(found.xs, along.logarithmic), _cells(found.ys, up.logarithmic)
 
 
-def _cells(centres: Numbers, logarithmic: bool) -> Numbers:
+def _cells(centres: Values, logarithmic: bool) -> Values:
     """Return the edges of cells around their centres."""
     place = np.log(centres) if logarithmic else centres
     middle = 0.5 * (place[1:] + place[:-1])

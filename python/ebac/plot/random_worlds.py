@@ -6,7 +6,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ebac.plot.style import Numbers, Picture, colours, dress, figure_legend, new_figure
+from ebac._util.arrays import Values
+from ebac.plot.style import Picture, colours, dress, figure_legend, new_figure
 from ebac.studies.random_worlds_result import HELD_BACK
 from ebac.studies.world_kinds import KINDS
 
@@ -69,7 +70,7 @@ def _exceed(
     ax: Any,
     found: RandomWorlds,
     kind: str,
-    of_rows: tuple[Numbers, ...],
+    of_rows: tuple[Values, ...],
     ends: tuple[float, float],
 ) -> None:
     """Draw for each law the share of hands with a larger value than the axis says; none for a law without one."""

@@ -9,12 +9,12 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from ebac._util.arguments import require
+from ebac._util.arrays import Values
 from ebac.plot.columns import plot_columns
 from ebac.plot.decades import limit_of, set_decades
 from ebac.plot.marks import mark_end, title, used_axes
 from ebac.plot.style import (
     QUANTITIES,
-    Numbers,
     Picture,
     colour,
     dress,
@@ -132,7 +132,7 @@ def _force(ax: Axes, trace: Trace, axis: int) -> None:
     legend(ax, columns=5)
 
 
-def _span(values: Numbers) -> tuple[float, float]:
+def _span(values: Values) -> tuple[float, float]:
     """Return the least and the most of what is finite; zeros where nothing is."""
     known = values[np.isfinite(values)]
     return (float(known.min()), float(known.max())) if known.size else (0.0, 0.0)
@@ -162,7 +162,7 @@ def _beta(ax: Axes, trace: Trace, axis: int) -> None:
     legend(ax)
 
 
-def _ticks(ax: Axes, t: Numbers) -> None:
+def _ticks(ax: Axes, t: Values) -> None:
     """Mark instants along the lower edge."""
     ax.plot(
         t,

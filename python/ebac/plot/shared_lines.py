@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from matplotlib.axes import Axes
 
-from ebac.plot.style import Numbers
+from ebac._util.arrays import Values
 
 #: Lines coincide where they differ by less than this share.
 NEAR = 0.02
@@ -16,9 +16,7 @@ NEAR = 0.02
 DASH = 4
 
 
-def draw_shared(
-    ax: Axes, x: Numbers, lines: list[Numbers], shades: list[str], width: float
-) -> None:
+def draw_shared(ax: Axes, x: Values, lines: list[Values], shades: list[str], width: float) -> None:
     """Draw lines over the same places; NaN is a gap, and a point between two gaps is a dot.
 
     Parameters
@@ -49,7 +47,7 @@ def draw_shared(
             ax.plot(x[j], values[i, j], "o", ms=size, mew=0, color=shade)
 
 
-def _together(values: Numbers, i: int, places: slice) -> tuple[int, ...]:
+def _together(values: Values, i: int, places: slice) -> tuple[int, ...]:
     """Return which lines coincide with line i at places, itself too; none where it has a gap."""
     near = np.isclose(values[:, places], values[i, places], rtol=NEAR, atol=0)
     return tuple(np.flatnonzero(near.all(axis=1)).tolist())

@@ -13,6 +13,7 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from ebac._core import Wall
+from ebac._util.arrays import Values
 from ebac._util.law_colours import COLOURS
 from ebac.metrics import ideal_rest
 from ebac.plot.legends import figure_legend, legend
@@ -39,7 +40,6 @@ DPI = 150
 #: More points than this on one line are thinned to their extremes.
 MOST_POINTS = 20_000
 
-Numbers = NDArray[np.float64]
 
 __all__ = [
     "BETTER",
@@ -51,7 +51,6 @@ __all__ = [
     "QUANTITIES",
     "SAME",
     "WORSE",
-    "Numbers",
     "Picture",
     "colour",
     "colours",
@@ -124,13 +123,13 @@ def dress(ax: Axes, ylabel: str) -> None:
     ax.spines[["top", "right"]].set_visible(False)
 
 
-def line(ax: Axes, t: Numbers, y: Numbers, **style: Any) -> None:
+def line(ax: Axes, t: Values, y: Values, **style: Any) -> None:
     """Draw a line, thinned to its extremes where it has very many points."""
     keep = _extremes(y)
     ax.plot(t[keep], y[keep], **style)
 
 
-def _extremes(y: Numbers) -> NDArray[np.intp] | slice:
+def _extremes(y: Values) -> NDArray[np.intp] | slice:
     if len(y) <= MOST_POINTS or not np.isfinite(y).all():
         return slice(None)
     size = 2 * len(y) // MOST_POINTS + 1

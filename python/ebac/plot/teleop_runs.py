@@ -9,8 +9,9 @@ from matplotlib.axes import Axes
 from matplotlib.ticker import FuncFormatter, MaxNLocator
 
 from ebac._util.arguments import several
+from ebac._util.arrays import Values
 from ebac.plot.marks import mark_cut
-from ebac.plot.style import Numbers, Picture, dress, figure_legend, line, new_figure
+from ebac.plot.style import Picture, dress, figure_legend, line, new_figure
 
 if TYPE_CHECKING:
     from ebac.teleop.run import Run
@@ -88,7 +89,7 @@ def _split(conditions: list[tuple[str, ...]]) -> tuple[list[str], list[list[str]
 
 
 def _limit(
-    axes: Sequence[Axes], runs: Sequence[Run], values: list[list[Numbers]], unit: str
+    axes: Sequence[Axes], runs: Sequence[Run], values: list[list[Values]], unit: str
 ) -> None:
     """Give a row of panels the scale of the calm runs, and name in each what lies beyond it."""
     spans = [(min(one.min() for one in mine), max(one.max() for one in mine)) for mine in values]

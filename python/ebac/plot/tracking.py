@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 from matplotlib.axes import Axes
 
+from ebac._util.arrays import Values
 from ebac.plot.style import Picture, dress, legend, new_figure
 from ebac.tracking.circle import CircleFit
-from ebac.tracking.deviation import Numbers
 from ebac.tracking.line import LineFit
 from ebac.tracking.table import TABLE_I
 
@@ -88,7 +88,7 @@ def _factor(size: float, largest: float) -> float:
     return float(max(step for step in (1, 2, 5) if step * decade <= wanted) * decade)
 
 
-def _flat(tracking: Tracking) -> tuple[Numbers, Numbers, Numbers]:
+def _flat(tracking: Tracking) -> tuple[Values, Values, Values]:
     """Return the path in the plane of its fit, the fit to draw, and the vectors from the fit to the path [m]."""
     fit, points = tracking.fit, tracking.path.points
     if isinstance(fit, CircleFit):

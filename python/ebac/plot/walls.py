@@ -10,11 +10,11 @@ import numpy as np
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 
+from ebac._util.arrays import Values
 from ebac.metrics import EXACT_COUNTS, TAIL_SHARE, allowed_deviation, ideal_rest, observer_use
 from ebac.plot.marks import fault_name, heading, mark_end
 from ebac.plot.style import (
     IDEAL,
-    Numbers,
     Picture,
     colour,
     dress,
@@ -175,7 +175,7 @@ def _label(trace: Trace) -> str:
     return f"{trace.law}, ended by {fault}" if fault else trace.law
 
 
-def _place(trace: Trace) -> Numbers:
+def _place(trace: Trace) -> Values:
     return trace.axis("true.x" if "true.x" in trace else "x")
 
 
@@ -224,7 +224,7 @@ def _band(trace: Trace) -> float:
     return 1e3 * (allowed_deviation(trace.scenario) if trace.scenario else 0.0)
 
 
-def _offset(trace: Trace, ideal: float) -> tuple[Numbers, Numbers] | None:
+def _offset(trace: Trace, ideal: float) -> tuple[Values, Values] | None:
     """Return times [s] and places beyond the ideal rest [mm] of the last 30 %; None where they are off the scale."""
     t, band = trace["t"], _band(trace)
     part = trace[float(t[-1] - TAIL_SHARE * (t[-1] - t[0])) :]

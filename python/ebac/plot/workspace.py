@@ -7,7 +7,8 @@ from matplotlib.axes import Axes
 
 from ebac._core import Device, Gimbal, Linear, SlidingGimbal
 from ebac._util.arguments import require
-from ebac.plot.style import Numbers, Picture, dress, legend, new_figure
+from ebac._util.arrays import Values
+from ebac.plot.style import Picture, dress, legend, new_figure
 
 #: Points along each side of a surface of joint angles.
 STEPS = 60
@@ -44,7 +45,7 @@ def plot_workspace(device: Device) -> Picture:
     return figure
 
 
-def _place(device: Device, q: Numbers) -> Numbers:
+def _place(device: Device, q: Values) -> Values:
     """Return x, y, z of the handle [mm] over its place in the middle, at the angles of all joints."""
     k = device.kinematics
     at = np.zeros(3)
@@ -54,7 +55,7 @@ def _place(device: Device, q: Numbers) -> Numbers:
     return 1e3 * at
 
 
-def _outline(device: Device, first: int, second: int, fixed: float = 0.0) -> Numbers:
+def _outline(device: Device, first: int, second: int, fixed: float = 0.0) -> Values:
     """Return the places around the range of two joints, the third at `fixed` of its stop, shape (n, 3)."""
     u, one = np.linspace(-1, 1, STEPS), np.ones(STEPS)
     around = np.concatenate([(u, -one), (one, u), (-u, one), (-one, -u)], axis=1)

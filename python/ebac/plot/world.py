@@ -12,7 +12,8 @@ from numpy.typing import NDArray
 
 from ebac._util import formatting
 from ebac._util.arguments import require
-from ebac.plot.style import Numbers, Picture, colour, dress, legend, new_figure
+from ebac._util.arrays import Values
+from ebac.plot.style import Picture, colour, dress, legend, new_figure
 from ebac.trace import Trace
 from ebac.worlds import World, distance
 
@@ -57,7 +58,7 @@ def plot_world(world: World, traces: Sequence[Trace] = ()) -> Picture:
     return figure
 
 
-def nearest(world: World, points: Numbers) -> tuple[Numbers, Numbers]:
+def nearest(world: World, points: Values) -> tuple[Values, Values]:
     """Return distance to and direction away from the nearest body at the time 0, shapes (n,) and (n, 3)."""
     best = np.full(len(points), np.inf)
     out = np.zeros((len(points), 3))
@@ -106,7 +107,7 @@ def _view(ax: Axes, world: World) -> None:
     ax.grid(visible=False)
 
 
-def _hidden(world: World, forward: Numbers) -> bool:
+def _hidden(world: World, forward: Values) -> bool:
     """Return whether a body stands between the eye and the place where the handle comes in."""
     way = np.linspace(-3 * HALF, -1e-3, 300)[:, None] * forward
     way = way[(np.abs(way) <= HALF).all(axis=1)]
@@ -114,8 +115,8 @@ def _hidden(world: World, forward: Numbers) -> bool:
 
 
 def _entry(
-    start: Numbers, forward: Numbers, low: Numbers, high: Numbers
-) -> tuple[Numbers, NDArray[np.bool_]]:
+    start: Values, forward: Values, low: Values, high: Values
+) -> tuple[Values, NDArray[np.bool_]]:
     """Return how far parallel rays go to the block that is shown, and whether they meet it."""
     sides = np.stack([(low - start) / forward, (high - start) / forward])
     first = sides.min(axis=0).max(axis=1)
@@ -124,8 +125,8 @@ def _entry(
 
 
 def _met(
-    world: World, start: Numbers, depth: Numbers, shown: NDArray[np.bool_], forward: Numbers
-) -> Numbers:
+    world: World, start: Values, depth: Values, shown: NDArray[np.bool_], forward: Values
+) -> Values:
     """Return where rays meet a surface, by steps of the distance to it, or where they have left."""
     depth, going = depth.copy(), np.flatnonzero(shown)
     last = depth + 4 * HALF
@@ -173,14 +174,14 @@ def _section(
     ax.contour(1e3 * x, 1e3 * y, field, levels=[0], colors="black", linewidths=1.0)
 
 
-def _path(trace: Trace, up: int) -> Numbers:
+def _path(trace: Trace, up: int) -> Values:
     """Return the way of the handle in a plane [m], shape (2, rows)."""
     places = trace["true.x" if "true.x" in trace else "x"].reshape(len(trace), -1)
     across = places[:, up] if trace.axes > up else np.zeros(len(trace))
     return np.stack([places[:, 0], across])
 
 
-def _close(ax: Axes, world: World, traces: Sequence[Trace], paths: list[Numbers], up: int) -> None:
+def _close(ax: Axes, world: World, traces: Sequence[Trace], paths: list[Values], up: int) -> None:
     """Show short paths once more from close by, in the lower left of a panel."""
     every = np.concatenate(paths, axis=1)
     low, high = every.min(axis=1), every.max(axis=1)

@@ -10,8 +10,9 @@ from matplotlib.axes import Axes
 from matplotlib.ticker import MaxNLocator
 
 from ebac._util import formatting
+from ebac._util.arrays import Values
 from ebac.plot.shared_lines import draw_shared
-from ebac.plot.style import Numbers, Picture, colours, dress, figure_legend, new_figure
+from ebac.plot.style import Picture, colours, dress, figure_legend, new_figure
 
 if TYPE_CHECKING:
     from ebac.studies.zwidth import ZWidth
@@ -119,7 +120,7 @@ def _borders(ax: Axes, found: ZWidth, criterion: str, d: int) -> None:
     ax.margins(x=0.03)
 
 
-def _ceilings(found: ZWidth, criterion: str, d: int) -> list[tuple[Numbers, Numbers]]:
+def _ceilings(found: ZWidth, criterion: str, d: int) -> list[tuple[Values, Values]]:
     """Return damping and stiffness of each ceiling of a criterion, in the order of `CEILINGS`."""
     from ebac.studies.zwidth import delay_ceiling, passive_ceiling
 
@@ -135,7 +136,7 @@ def _ceilings(found: ZWidth, criterion: str, d: int) -> list[tuple[Numbers, Numb
     return []
 
 
-def _kilo(newton_per_metre: Numbers) -> Numbers:
+def _kilo(newton_per_metre: Values) -> Values:
     return np.where(newton_per_metre > 0, 1e-3 * newton_per_metre, np.nan)
 
 

@@ -5,18 +5,15 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from math import acos, degrees, pi
-from typing import TypeAlias
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ebac._core import Cylinder, Plane, Sphere
+from ebac._util.arrays import Values
 from ebac.worlds.solids import Cavity, Placed, Solid
 
 #: Least and largest angle between two directions [deg]: neither the same plane twice nor two planes face to face.
 APART = (5.0, 175.0)
-
-Vector: TypeAlias = NDArray[np.float64]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -37,14 +34,14 @@ class WorldKind:
     draw: Callable[[np.random.Generator, int], tuple[Solid, ...]]
 
 
-def direction(random: np.random.Generator, axes: int) -> Vector:
+def direction(random: np.random.Generator, axes: int) -> Values:
     """Return a unit vector, shape (3,), evenly over all directions of 2 or 3 axes."""
     vector = np.zeros(3)
     vector[:axes] = random.normal(size=axes)
     return vector / np.linalg.norm(vector)
 
 
-def _two_directions(random: np.random.Generator, axes: int) -> tuple[Vector, Vector]:
+def _two_directions(random: np.random.Generator, axes: int) -> tuple[Values, Values]:
     """Return two directions that are neither nearly the same nor nearly opposite."""
     one = direction(random, axes)
     while True:
@@ -83,12 +80,12 @@ def _cavity(random: np.random.Generator, axes: int) -> tuple[Solid, ...]:
     return Cavity(Sphere(radius=radius)), _at(column, away * direction(random, 2))
 
 
-def _plane(random: np.random.Generator, into: Vector) -> Placed:
+def _plane(random: np.random.Generator, into: Values) -> Placed:
     """Return all that lies 2 to 8 mm from the origin and beyond, in a direction."""
     return Placed(Plane(), at=_floats(random.uniform(2e-3, 8e-3) * into), turned=_turned(into))
 
 
-def _turned(into: Vector) -> tuple[float, float, float]:
+def _turned(into: Values) -> tuple[float, float, float]:
     """Return the rotation vector [rad] that turns the x axis, into which a `Plane` begins, to a direction."""
     axis = np.cross([1.0, 0.0, 0.0], into)
     sine = float(np.linalg.norm(axis))
@@ -97,11 +94,11 @@ def _turned(into: Vector) -> tuple[float, float, float]:
     return _floats(axis / sine * np.arctan2(sine, into[0]))
 
 
-def _at(solid: Solid, place: Vector) -> Placed:
+def _at(solid: Solid, place: Values) -> Placed:
     return Placed(solid, at=_floats(place))
 
 
-def _floats(vector: Vector) -> tuple[float, float, float]:
+def _floats(vector: Values) -> tuple[float, float, float]:
     x, y, z = vector.tolist()
     return x, y, z
 

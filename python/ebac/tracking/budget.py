@@ -11,8 +11,8 @@ import numpy as np
 
 from ebac._core import Device
 from ebac._util.arguments import number, whole
+from ebac._util.arrays import Values
 from ebac.tracking.circle import fit_circle
-from ebac.tracking.deviation import Numbers
 from ebac.tracking.error_sources import GROUPS, ErrorSources, Joystick
 from ebac.tracking.line import fit_line
 from ebac.tracking.table import mean
@@ -82,7 +82,7 @@ class Budget:
     runs: int
     seed: int
     slack_m: dict[str, float | None]
-    examples: dict[str, Numbers]
+    examples: dict[str, Values]
 
     def __repr__(self) -> str:
         """Return a row per shape and source."""
@@ -150,7 +150,7 @@ def error_budget(
     sizes, stick = sources or ErrorSources(), device or presets.device("joystick")
     parts = {**{name: sizes.only(name) for name in GROUPS}, "all": sizes}
     rows: list[BudgetRow] = []
-    examples: dict[str, Numbers] = {}
+    examples: dict[str, Values] = {}
     slack: dict[str, float | None] = {}
     total = 2 * (len(parts) + 1)
     for shape in ("line", "circle"):
@@ -185,7 +185,7 @@ def _row(shape: str, source: str, found: list[tuple[float, float, float]]) -> Bu
 
 def _path(
     device: Device, sources: ErrorSources, shape: str, radius: float, seed: int, run: int
-) -> Numbers:
+) -> Values:
     """Return what the `run`-th joystick shows. All rows use the same draws, so that sources add up run by run."""
     random = np.random.default_rng([seed, run, shape == "circle"])
     joystick = Joystick.draw(device, sources, random)

@@ -7,7 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ebac.tracking.deviation import Deviation, Numbers, checked, digits, measure
+from ebac._util.arrays import Values
+from ebac.tracking.deviation import Deviation, checked, digits, measure
 from ebac.tracking.robust import counted
 
 #: A radius beyond this many times the size of the path is a line.
@@ -43,12 +44,12 @@ class CircleFit:
         What was counted; all without `robust`.
     """
 
-    centre: Numbers
+    centre: Values
     radius: float
-    normal: Numbers
-    residuals: Numbers
-    out_of_plane: Numbers
-    angle: Numbers
+    normal: Values
+    residuals: Values
+    out_of_plane: Values
+    angle: Values
     deviation: Deviation
     radius_sd_m: float
     centre_sd_m: float
@@ -128,7 +129,7 @@ def fit_circle(points: ArrayLike, *, robust: bool = False) -> CircleFit:
     )
 
 
-def _plane(points: Numbers) -> tuple[Numbers, Numbers, Numbers]:
+def _plane(points: Values) -> tuple[Values, Values, Values]:
     """Return the origin of the plane of points, its two axes and its normal."""
     if points.shape[1] == 2:
         return np.zeros(2), np.eye(2), np.array([0.0, 0.0, 1.0])
@@ -137,16 +138,16 @@ def _plane(points: Numbers) -> tuple[Numbers, Numbers, Numbers]:
     return origin, axes[:2], np.cross(axes[0], axes[1])
 
 
-def _height(points: Numbers, origin: Numbers, normal: Numbers) -> Numbers:
+def _height(points: Values, origin: Values, normal: Values) -> Values:
     flat = points.shape[1] == 2
     return np.zeros(len(points)) if flat else np.asarray((points - origin) @ normal)
 
 
-def _radial(points: Numbers, circle: Numbers) -> Numbers:
+def _radial(points: Values, circle: Values) -> Values:
     return np.asarray(np.hypot(points[:, 0] - circle[0], points[:, 1] - circle[1]) - circle[2])
 
 
-def _algebraic(points: Numbers) -> Numbers | None:
+def _algebraic(points: Values) -> Values | None:
     """Solve x^2 + y^2 = 2 a x + 2 b y + c, a good start; None where the points lie on a line."""
     left = np.column_stack([2 * points, np.ones(len(points))])
     answer, _, rank, sizes = np.linalg.lstsq(left, (points**2).sum(axis=1), rcond=None)
@@ -155,7 +156,7 @@ def _algebraic(points: Numbers) -> Numbers | None:
     return np.array([*answer[:2], np.sqrt(max(answer[2] + answer[:2] @ answer[:2], 0.0))])
 
 
-def _geometric(points: Numbers) -> Numbers:
+def _geometric(points: Values) -> Values:
     """Minimise the squares of the radial distances by Levenberg and Marquardt's steps; unit size."""
     circle = _algebraic(points)
     if circle is None:
@@ -183,7 +184,7 @@ def _geometric(points: Numbers) -> Numbers:
     return circle
 
 
-def _uncertainty(angle: Numbers, deviation: Deviation) -> tuple[float, float]:
+def _uncertainty(angle: Values, deviation: Deviation) -> tuple[float, float]:
     slope = np.column_stack([np.cos(angle), np.sin(angle), np.ones(len(angle))])
     spread = np.linalg.pinv(slope.T @ slope, hermitian=True) * deviation.n / deviation.independent
     variance = deviation.sd_m**2 * spread
@@ -191,13 +192,13 @@ def _uncertainty(angle: Numbers, deviation: Deviation) -> tuple[float, float]:
     return float(np.sqrt(variance[2, 2])), float(np.sqrt(max(worst, 0.0)))
 
 
-def _arc(angle: Numbers) -> float:
+def _arc(angle: Values) -> float:
     turn = np.sort(angle)
     gaps = np.diff(np.append(turn, turn[0] + 2 * np.pi))
     return float(2 * np.pi - gaps.max())
 
 
-def _off(fitted: Numbers, measured: Numbers) -> Numbers | None:
+def _off(fitted: Values, measured: Values) -> Values | None:
     """Return |distances| of measured points from the circle through the fitted ones; None where these lie on a line."""
     origin, axes, normal = _plane(fitted)
     flat = (fitted - origin) @ axes.T

@@ -8,8 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-Numbers = NDArray[np.float64]
-
+from ebac._util.arrays import Values
 
 #: What is smaller is printed as 0: errors of rounding [mm or degrees].
 LEAST = 1e-9
@@ -52,7 +51,7 @@ class Deviation:
     independent: float
 
 
-def measure(distances: Numbers, counts: NDArray[np.bool_], fitted: int) -> Deviation:
+def measure(distances: Values, counts: NDArray[np.bool_], fitted: int) -> Deviation:
     """Measure distances [m] in the order of recording, shape (n,) or (n, 2); `fitted` is p."""
     kept = distances[counts]
     size = np.abs(kept) if kept.ndim == 1 else np.hypot(kept[:, 0], kept[:, 1])
@@ -68,7 +67,7 @@ def measure(distances: Numbers, counts: NDArray[np.bool_], fitted: int) -> Devia
     )
 
 
-def _independent(residuals: Numbers) -> float:
+def _independent(residuals: Values) -> float:
     """Return n over the integrated autocorrelation, summed up to its first zero; at least 2."""
     n = len(residuals)
     centred = residuals - residuals.mean()
@@ -83,7 +82,7 @@ def _independent(residuals: Numbers) -> float:
     return float(np.clip(n / (1 + 2 * correlation[:end].sum()), 2.0, n))
 
 
-def checked(points: ArrayLike, least: int, what: str) -> Numbers:
+def checked(points: ArrayLike, least: int, what: str) -> Values:
     """Return points as an array, shape (n, 2) or (n, 3).
 
     Raises

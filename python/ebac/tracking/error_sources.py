@@ -11,8 +11,8 @@ import numpy as np
 
 from ebac._core import Device, Gimbal
 from ebac._util.arguments import number, unknown_name
+from ebac._util.arrays import Values
 from ebac._util.wrong_calls import plain_constructor
-from ebac.tracking.deviation import Numbers
 
 #: Names of the sources, and the fields of `ErrorSources` that belong to each.
 GROUPS = {
@@ -98,13 +98,13 @@ class Joystick:
 
     radius: float
     count: float
-    zero: Numbers
-    ratio: Numbers
-    slack: Numbers
+    zero: Values
+    ratio: Values
+    slack: Values
     skew: float
     axis_offset: float
     lever: float
-    phase: Numbers
+    phase: Values
     encoder: bool
 
     @classmethod
@@ -134,7 +134,7 @@ class Joystick:
             encoder=sources.encoder,
         )
 
-    def handle(self, q: Numbers) -> Numbers:
+    def handle(self, q: Values) -> Values:
         """Return where the handle truly is [m] at joint angles [rad], shapes (n, 3) and (n, 2).
 
         p = Ry(q1) [(0, 0, a) + Rz(e) Rx(-q2) (0, 0, R + dR)], with the axes a apart and e from square; without errors
@@ -152,7 +152,7 @@ class Joystick:
             axis=1,
         )
 
-    def joints(self, x: Numbers) -> Numbers:
+    def joints(self, x: Values) -> Values:
         """Return the joint angles [rad] that bring the handle to x, y [m], shapes (n, 2), by Newton's steps."""
         q = nominal_joints(x, self.radius)
         for _ in range(20):
@@ -172,7 +172,7 @@ class Joystick:
                 break
         return q
 
-    def shown(self, x: Numbers) -> Numbers:
+    def shown(self, x: Values) -> Values:
         """Return what the joystick shows [m] while its handle follows x, y [m], shapes (n, 2).
 
         Each motor is taken along by its cable when the play is used up, its encoder counts, and the nominal kinematics
@@ -192,7 +192,7 @@ class Joystick:
         )
 
 
-def nominal_joints(x: Numbers, radius: float) -> Numbers:
+def nominal_joints(x: Values, radius: float) -> Values:
     """Return the joint angles [rad] of a perfect gimbal at x, y [m], shapes (n, 2).
 
     Raises
@@ -206,7 +206,7 @@ def nominal_joints(x: Numbers, radius: float) -> Numbers:
     return np.stack([np.arcsin(x[:, 0] / (radius * np.cos(q2))), q2], axis=1)
 
 
-def _dragged(angle: Numbers, play: float) -> Numbers:
+def _dragged(angle: Values, play: float) -> Values:
     """Return the angle of what is dragged through a play, end to end, from the middle of it."""
     if play == 0:
         return angle

@@ -7,7 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ebac.tracking.deviation import Deviation, Numbers, checked, digits, measure
+from ebac._util.arrays import Values
+from ebac.tracking.deviation import Deviation, checked, digits, measure
 from ebac.tracking.robust import counted
 
 
@@ -33,10 +34,10 @@ class LineFit:
         What was counted; all without `robust`.
     """
 
-    point: Numbers
-    direction: Numbers
-    residuals: Numbers
-    along: Numbers
+    point: Values
+    direction: Values
+    residuals: Values
+    along: Values
     deviation: Deviation
     direction_sd_rad: float
     offset_sd_m: float
@@ -112,7 +113,7 @@ def fit_line(points: ArrayLike, *, robust: bool = False) -> LineFit:
     )
 
 
-def _principal(path: Numbers) -> tuple[Numbers, Numbers]:
+def _principal(path: Values) -> tuple[Values, Values]:
     point = path.mean(axis=0)
     _, sizes, axes = np.linalg.svd(path - point, full_matrices=False)
     if sizes[0] - sizes[1] <= 1e-9 * sizes[0]:
@@ -122,7 +123,7 @@ def _principal(path: Numbers) -> tuple[Numbers, Numbers]:
     return point, axes[0]
 
 
-def _normals(direction: Numbers) -> Numbers:
+def _normals(direction: Values) -> Values:
     """Return unit vectors across a direction: in the plane to its left."""
     if len(direction) == 2:
         return np.array([[-direction[1], direction[0]]])
@@ -132,11 +133,11 @@ def _normals(direction: Numbers) -> Numbers:
     return np.stack([first, np.cross(direction, first)])
 
 
-def _size(path: Numbers, point: Numbers, direction: Numbers) -> Numbers:
+def _size(path: Values, point: Values, direction: Values) -> Values:
     return np.asarray(np.linalg.norm((path - point) @ _normals(direction).T, axis=1))
 
 
-def _off(fitted: Numbers, measured: Numbers) -> Numbers | None:
+def _off(fitted: Values, measured: Values) -> Values | None:
     """Return |distances| of measured points from the line through the fitted ones; None where these have none."""
     try:
         return _size(measured, *_principal(fitted))

@@ -9,11 +9,11 @@ from pathlib import Path
 import numpy as np
 
 from ebac._util.arguments import unknown
+from ebac._util.arrays import Values
 from ebac._util.headings import FACTORS, split_heading
 from ebac._util.wrong_calls import plain_constructor
 from ebac.operators.columns import read_csv
 from ebac.trace import Trace
-from ebac.tracking.deviation import Numbers
 
 #: Metres per unit.
 UNITS = FACTORS["length"]
@@ -40,7 +40,7 @@ class RecordedPath:
         Which columns in which unit, and whether that was guessed.
     """
 
-    points: Numbers
+    points: Values
     name: str
     remark: str
 
@@ -155,7 +155,7 @@ def _known(chosen: Sequence[str], names: list[str]) -> None:
             raise ValueError(unknown(f"column {column!r}", column, names))
 
 
-def _numbers(column: str, cells: list[str]) -> Numbers:
+def _numbers(column: str, cells: list[str]) -> Values:
     values = np.empty(len(cells))
     for i, cell in enumerate(cells):
         try:

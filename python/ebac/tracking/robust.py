@@ -19,9 +19,10 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import NDArray
 
-Numbers = NDArray[np.float64]
+from ebac._util.arrays import Values
+
 #: Fits a path to the first points and returns how far the second lie from it; None where the first have none.
-Off = Callable[[Numbers, Numbers], Numbers | None]
+Off = Callable[[Values, Values], Values | None]
 
 #: Beyond this many standard deviations a point is an outlier (Iglewicz and Hoaglin, How to detect and handle outliers,
 #: 1993). Of normal errors it takes one in 2150 away, and with them 0.3 % of the standard deviation.
@@ -35,7 +36,7 @@ MOST = 2000
 STEPS = 50
 
 
-def counted(points: Numbers, size: int, off: Off, floor: float) -> NDArray[np.bool_]:
+def counted(points: Values, size: int, off: Off, floor: float) -> NDArray[np.bool_]:
     """Return which points belong to their path. Rows that are the same are one point: a rest is no majority.
 
     Parameters
@@ -57,7 +58,7 @@ def counted(points: Numbers, size: int, off: Off, floor: float) -> NDArray[np.bo
     return among[same.reshape(-1)]
 
 
-def _grown(points: Numbers, size: int, off: Off, floor: float) -> NDArray[np.bool_]:
+def _grown(points: Values, size: int, off: Off, floor: float) -> NDArray[np.bool_]:
     """Return which of different points belong to the path of the best half."""
     best = _best_half(points[:: 1 + (len(points) - 1) // MOST], size, off)
     distances = None if best is None else off(best, points)
@@ -91,11 +92,11 @@ def _half(n: int, size: int) -> int:
     return (n + size + 1) // 2
 
 
-def _best_half(points: Numbers, size: int, off: Off) -> Numbers | None:
+def _best_half(points: Values, size: int, off: Off) -> Values | None:
     """Return the half with the least squares about its own path."""
     half = _half(len(points), size)
     random = np.random.default_rng(1)  # the same subsets for the same number of points
-    starts: list[tuple[float, Numbers]] = []
+    starts: list[tuple[float, Values]] = []
     for _ in range(SUBSETS):
         found = off(points[random.choice(len(points), size, replace=False)], points)
         if found is not None:
@@ -107,7 +108,7 @@ def _best_half(points: Numbers, size: int, off: Off) -> Numbers | None:
     return points[_nearest(min(ends, key=lambda end: _squares(end, half)), half)]
 
 
-def _concentrated(points: Numbers, distances: Numbers, half: int, off: Off) -> Numbers:
+def _concentrated(points: Values, distances: Values, half: int, off: Off) -> Values:
     """Fit to the nearest half until its squares fall no more."""
     for _ in range(STEPS):
         again = off(points[_nearest(distances, half)], points)
@@ -117,9 +118,9 @@ def _concentrated(points: Numbers, distances: Numbers, half: int, off: Off) -> N
     return distances
 
 
-def _nearest(distances: Numbers, half: int) -> NDArray[np.intp]:
+def _nearest(distances: Values, half: int) -> NDArray[np.intp]:
     return np.sort(np.argpartition(distances, half - 1)[:half])
 
 
-def _squares(distances: Numbers, half: int) -> float:
+def _squares(distances: Values, half: int) -> float:
     return float((np.partition(distances, half - 1)[:half] ** 2).sum())

@@ -9,14 +9,14 @@ from math import inf, isfinite
 from typing import Any, Self
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from ebac._util.arguments import number
+from ebac._util.arrays import Values
 from ebac.worlds.part import three
 from ebac.worlds.world import Touch
 
 Vector = tuple[float, float, float]
-Floats = NDArray[np.float64]
 
 #: Largest stiffness [N/m] and damping [N s/m], as of a wall.
 STIFFEST, MOST_DAMPING = 1e7, 1e4
@@ -162,13 +162,13 @@ class Kept:
 
     def __init__(
         self,
-        function: Callable[[Floats, Floats], Any],
+        function: Callable[[Values, Values], Any],
         numbers: Callable[[Any], tuple[Any, ...] | None],
         errors: list[BaseException],
     ) -> None:
         self._function, self._numbers, self._errors = function, numbers, errors
 
-    def __call__(self, x: Floats, v: Floats) -> tuple[Any, ...] | None:
+    def __call__(self, x: Values, v: Values) -> tuple[Any, ...] | None:
         """Return the numbers; an error comes again at every later call."""
         if self._errors:
             raise RuntimeError("failed before")

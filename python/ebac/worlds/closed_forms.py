@@ -6,9 +6,8 @@ from dataclasses import dataclass
 from typing import NamedTuple, Protocol
 
 import numpy as np
-from numpy.typing import NDArray
 
-Numbers = NDArray[np.float64]
+from ebac._util.arrays import Values
 
 
 class Puncture(NamedTuple):
@@ -34,10 +33,10 @@ class Puncture(NamedTuple):
 class ClosedForm(Protocol):
     """What a material does at a constant speed v [m/s], down to a deepest place and out again."""
 
-    def inwards(self, depth: Numbers, v: float) -> Numbers:
+    def inwards(self, depth: Values, v: float) -> Values:
         """Return the force on the way in [N]."""
 
-    def outwards(self, depth: Numbers, v: float, deepest: float) -> Numbers:
+    def outwards(self, depth: Values, v: float, deepest: float) -> Values:
         """Return the force on the way out [N]."""
 
     def punctures(self, v: float, deepest: float) -> tuple[Puncture, ...]:
@@ -55,11 +54,11 @@ class PowerLaw:
     n: float
     a: float
 
-    def inwards(self, depth: Numbers, v: float) -> Numbers:
+    def inwards(self, depth: Values, v: float) -> Values:
         """Return the force on the way in [N]."""
         return self.k * depth**self.n * (1 + 1.5 * self.a * v)
 
-    def outwards(self, depth: Numbers, v: float, deepest: float) -> Numbers:
+    def outwards(self, depth: Values, v: float, deepest: float) -> Values:
         """Return the force on the way out [N]."""
         return self.k * depth**self.n * max(0.0, 1 - 1.5 * self.a * v)
 
@@ -98,11 +97,11 @@ class Springs:
 
     springs: tuple[Spring, ...]
 
-    def _ends(self, v: float) -> Numbers:
+    def _ends(self, v: float) -> Values:
         """Return where each gives way: none before those above it."""
         return np.maximum.accumulate([one.given_way(v) for one in self.springs])
 
-    def _of(self, carrying: int, depth: Numbers, v: float) -> Numbers:
+    def _of(self, carrying: int, depth: Values, v: float) -> Values:
         """Return the force where the one of this number carries; v < 0 outwards."""
         force = np.full_like(
             depth, np.sign(v) * sum(one.cutting for one in self.springs[:carrying])
@@ -113,13 +112,13 @@ class Springs:
             force += np.where(below > 0, np.maximum(own.stiffness * below + own.damping * v, 0), 0)
         return np.maximum(force, 0.0)
 
-    def inwards(self, depth: Numbers, v: float) -> Numbers:
+    def inwards(self, depth: Values, v: float) -> Values:
         """Return the force on the way in [N]."""
         carrying = np.searchsorted(self._ends(v), depth)
         all_of_them = np.stack([self._of(k, depth, v) for k in range(len(self.springs) + 1)])
         return np.asarray(np.take_along_axis(all_of_them, carrying[None], axis=0)[0])
 
-    def outwards(self, depth: Numbers, v: float, deepest: float) -> Numbers:
+    def outwards(self, depth: Values, v: float, deepest: float) -> Values:
         """Return the force on the way out [N]."""
         return self._of(int(np.searchsorted(self._ends(v), deepest)), depth, -v)
 

@@ -8,11 +8,12 @@ from typing import Any, Self
 
 from ebac import _core
 from ebac._core import BridgeParams, EngineTiming
-from ebac.worlds.answers import Floats, Kept, LocalModel, contact_numbers, model_numbers
+from ebac._util.arrays import Values
+from ebac.worlds.answers import Kept, LocalModel, contact_numbers, model_numbers
 from ebac.worlds.world import World
 
 #: What an engine is: position [m] and velocity [m/s] of the handle in, each of shape (3,); a local model out.
-Engine = Callable[[Floats, Floats], LocalModel | None]
+Engine = Callable[[Values, Values], LocalModel | None]
 
 
 class ForeignWorld(_core._World):
@@ -77,7 +78,7 @@ class FunctionWorld(ForeignWorld):
         When it cannot be called.
     """
 
-    def __init__(self, function: Callable[[Floats, Floats], Any]) -> None:
+    def __init__(self, function: Callable[[Values, Values], Any]) -> None:
         _callable("FunctionWorld.function", function)
         self._errors: list[BaseException] = []
         kept = Kept(function, contact_numbers, self._errors)

@@ -6,15 +6,14 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ebac._core import Elastic, HuntCrossley, Plane
 from ebac._util.arguments import number
+from ebac._util.arrays import Values
 from ebac.worlds.closed_forms import ClosedForm, PowerLaw, Puncture, Spring, Springs
 from ebac.worlds.world import Body, Layered, World
 
 Material = Elastic | HuntCrossley | Layered
-Numbers = NDArray[np.float64]
 
 #: Steps each way.
 ROWS = 6000
@@ -46,9 +45,9 @@ class ForceDepth:
 
     material: Material
     speed: float
-    depth: Numbers
-    force: Numbers
-    force_exact: Numbers
+    depth: Values
+    force: Values
+    force_exact: Values
     error: float
     punctures: tuple[Puncture, ...]
     punctures_exact: tuple[Puncture, ...]
@@ -154,7 +153,7 @@ def closed_form(material: Material) -> ClosedForm:
     return Springs(tuple(springs))
 
 
-def _punctures(depth: Numbers, force: Numbers) -> tuple[Puncture, ...]:
+def _punctures(depth: Values, force: Values) -> tuple[Puncture, ...]:
     """Return where the force falls on the way in."""
     return tuple(
         Puncture(float(depth[k + 1]), float(force[k]), float(force[k + 1]))

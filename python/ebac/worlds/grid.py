@@ -18,8 +18,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ebac import _core
+from ebac._util.arrays import Values
 
-Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 Progress = Callable[[int, int], None]
 
@@ -68,7 +68,7 @@ class Grid:
         Direction and distance [m] at each node.
     """
 
-    origin: Floats
+    origin: Values
     cell: float
     margin: float
     far: NDArray[np.float32]
@@ -99,7 +99,7 @@ class Surface:
         0 for the surface of a solid; that of a shell whose middle the triangles are [m].
     """
 
-    def __init__(self, vertices: Floats, faces: Ints, thickness: float = 0.0) -> None:
+    def __init__(self, vertices: Values, faces: Ints, thickness: float = 0.0) -> None:
         corners = vertices[faces]
         volume = np.einsum("ni,ni->", corners[:, 0], np.cross(corners[:, 1], corners[:, 2]))
         if volume < 0 and not thickness:  # a solid turned inside out
@@ -110,7 +110,7 @@ class Surface:
         normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
         self._normals = normals / np.linalg.norm(normals, axis=1, keepdims=True)
 
-    def distance(self, points: Floats) -> tuple[Floats, Floats]:
+    def distance(self, points: Values) -> tuple[Values, Values]:
         """Return signed distances [m], shape (n,), and unit vectors away from the solid, shape (n, 3)."""
         kind = self._igl.SignedDistanceType
         way = (
@@ -189,11 +189,11 @@ def _cells(size: NDArray[np.int64]) -> NDArray[np.int64]:
 
 def _asked(
     surface: Surface,
-    origin: Floats,
+    origin: Values,
     step: float,
     places: NDArray[np.int64],
     progress: Progress | None = None,
-) -> tuple[Floats, Floats]:
+) -> tuple[Values, Values]:
     """Return directions and distances at nodes of a lattice."""
     out, d = np.empty((len(places), 3)), np.empty(len(places))
     for start in range(0, len(places), MANY):

@@ -6,11 +6,12 @@ from functools import lru_cache
 
 import numpy as np
 
-from ebac.worlds.grid import Floats, Ints, needed
+from ebac._util.arrays import Values
+from ebac.worlds.grid import Ints, needed
 
 
 @lru_cache(maxsize=4)
-def read(file: str, changed: int) -> tuple[Floats, Ints, int]:
+def read(file: str, changed: int) -> tuple[Values, Ints, int]:
     """Return vertices, triangles and the number of open edges of a file.
 
     Parameters

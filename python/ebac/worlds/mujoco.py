@@ -10,7 +10,8 @@ from typing import Any
 
 import numpy as np
 
-from ebac.worlds.answers import Floats, LocalModel
+from ebac._util.arrays import Values
+from ebac.worlds.answers import LocalModel
 from ebac.worlds.grid import needed
 
 #: By how much the tip is pressed further to see how stiff a contact is [m].
@@ -93,7 +94,7 @@ class MujocoEngine:
             raise FileNotFoundError(f"{text}: no such file")
         return self._mj.MjModel.from_xml_path(text)
 
-    def __call__(self, x: Floats, v: Floats) -> LocalModel | None:
+    def __call__(self, x: Values, v: Values) -> LocalModel | None:
         """Return the plane near the tip."""
         start = self.data.mocap_pos[self._mocap].copy()
         self._mj.mj_copyData(self._probe, self.model, self.data)
@@ -109,7 +110,7 @@ class MujocoEngine:
             return LocalModel.of_force(x, force, self._stiffness)
         return self._ahead(x)
 
-    def _advance(self, data: Any, start: Floats, x: Floats) -> Floats:
+    def _advance(self, data: Any, start: Values, x: Values) -> Values:
         """Move the tip in even steps; return the force with which it presses [N]."""
         for i in range(1, self._steps + 1):
             data.mocap_pos[self._mocap] = start + (x - start) * i / self._steps
@@ -126,7 +127,7 @@ class MujocoEngine:
         """Return 1 where the frame points away from the tip, -1 where it points towards it."""
         return 1.0 if int(contact.geom[0]) == self._geom else -1.0
 
-    def _ahead(self, x: Floats) -> LocalModel | None:
+    def _ahead(self, x: Values) -> LocalModel | None:
         """Return the plane of the nearest rigid surface."""
         nearest, ends, line = self._reach, np.zeros(6), np.zeros(6)
         for other in self._others:

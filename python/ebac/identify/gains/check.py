@@ -7,9 +7,9 @@ from dataclasses import dataclass
 from itertools import count
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ebac._core import Hand
+from ebac._util.arrays import Values
 from ebac.identify.cases import Case, draw
 from ebac.identify.gains.gains import GainsResult, fit_gains
 from ebac.identify.gains.press_trials import Presses, run_presses
@@ -29,8 +29,6 @@ LAWS = ("tca", "tca-damped", "ebac")
 REPEATS, SEEDS_APART = 5, 10_000
 #: What is compared.
 MEASURES = ("settled", "swing", "noise")
-
-Values = NDArray[np.float64]
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

@@ -7,9 +7,9 @@ from itertools import product
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ebac._core import Hand, RunLimits, SweepProgress
+from ebac._util.arrays import Values
 from ebac._util.cores import thread_count
 from ebac.identify.intervals import Z95
 from ebac.identify.parameters import HAND
@@ -17,8 +17,6 @@ from ebac.identify.result import ArmResult
 from ebac.laws import LAWS, design
 from ebac.metrics import ideal_rest
 from ebac.scenario import Scenario
-
-Values = NDArray[np.float64]
 
 
 def force_loop_laws() -> list[str]:

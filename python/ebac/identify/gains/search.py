@@ -11,14 +11,13 @@ from numpy.typing import NDArray
 
 from ebac._core import Device, Timing
 from ebac._util.arguments import unknown
+from ebac._util.arrays import Values
 from ebac._util.nlopt_callbacks import Carried
 from ebac.identify.gains.press_trials import Presses, noise_gain
 from ebac.identify.gains.trial import Candidate, Limits, Trial, spare
 from ebac.identify.loop import LoopModel
 from ebac.laws import LAWS, design
 from ebac.scenario import Scenario
-
-Values = NDArray[np.float64]
 
 #: Largest gains that are tried: K_p [1], K_d [s]; a law may allow less.
 LARGEST = {"kp": 2.0, "kd": 0.01}

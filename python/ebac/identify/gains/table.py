@@ -6,12 +6,10 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ebac._util.arrays import Values
 from ebac.identify.gains.check import MEASURES, GainsCase, Refused
 from ebac.identify.gains.press_trials import Presses
-
-Values = NDArray[np.float64]
 
 #: Finer differences are not counted: one tick [s], a micrometre, a millinewton.
 FINEST = {"settled": 1e-3, "swing": 1e-6, "noise": 1e-3}

@@ -9,10 +9,11 @@ from pathlib import Path
 import numpy as np
 
 from ebac._util.arguments import require, unknown
+from ebac._util.arrays import Values
 from ebac.laws import AnyLaw
 from ebac.scenario import Scenario
 from ebac.studies.maps.axes import AXES, MapAxis
-from ebac.studies.maps.result import Numbers, StabilityMap
+from ebac.studies.maps.result import StabilityMap
 from ebac.studies.sweeps import sweep
 from ebac.studies.sweeps.job import Progress
 from ebac.studies.sweeps.run import name_laws
@@ -26,8 +27,8 @@ def stability_map(
     x: str = "damping",
     y: str = "stiffness",
     *,
-    xs: Sequence[float] | Numbers | None = None,
-    ys: Sequence[float] | Numbers | None = None,
+    xs: Sequence[float] | Values | None = None,
+    ys: Sequence[float] | Values | None = None,
     base: Scenario | None = None,
     threads: int | None = None,
     executor: Executor | None = None,
@@ -84,7 +85,7 @@ def _axis(name: str) -> MapAxis:
     return AXES[name]
 
 
-def _grid(base: Scenario, along: list[MapAxis], values: list[Numbers]) -> list[Scenario]:
+def _grid(base: Scenario, along: list[MapAxis], values: list[Values]) -> list[Scenario]:
     """Return the scenarios row by row; what stays the same is one object, so that laws are designed once."""
     columns = [along[0].apply(base, value) for value in values[0].tolist()]
     return [along[1].apply(column, value) for value in values[1].tolist() for column in columns]

@@ -9,11 +9,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ebac._util.arrays import Values
 from ebac.scenario import Scenario
 from ebac.studies.maps.axes import AXES, MapAxis
 from ebac.studies.sweeps import SweepResult
-
-Numbers = NDArray[np.float64]
 
 #: What a run can come to, best first: a cell of `verdict` is a place in this list.
 VERDICTS = ("exact and quiet", "exact, force not quiet", "still, not exact", "swings", "diverges")
@@ -41,8 +40,8 @@ class StabilityMap:
     law: str
     x: str
     y: str
-    xs: Numbers
-    ys: Numbers
+    xs: Values
+    ys: Values
     result: SweepResult
 
     def __getitem__(self, name: str) -> NDArray[Any]:

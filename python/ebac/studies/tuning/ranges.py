@@ -7,13 +7,12 @@ from collections.abc import Mapping
 from typing import TypeAlias
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ebac._util.arguments import unknown_name
+from ebac._util.arrays import Values
 from ebac.laws import LAWS
 
 Range: TypeAlias = tuple[float, float]
-Values: TypeAlias = NDArray[np.float64]
 
 #: What is searched of each law, in SI units; (0, 1) for a switch. Facts about the device are left alone.
 RANGES: dict[str, dict[str, Range]] = {

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from ebac._util.arrays import Values
 from ebac._util.nlopt_callbacks import Carried
 from ebac.laws import Variant
 from ebac.operators import Operators
@@ -15,7 +16,7 @@ from ebac.scenario import Scenario
 from ebac.studies.conditions import Condition
 from ebac.studies.sweeps.run import seed_of, sweep
 from ebac.studies.tuning.cost import cost_of
-from ebac.studies.tuning.ranges import Ranges, Values
+from ebac.studies.tuning.ranges import Ranges
 
 #: Share of the runs that look over the whole range (DIRECT-L); the others refine the best point (Subplex).
 LOOKS = 0.6

@@ -6,12 +6,10 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ebac._core import Wall
+from ebac._util.arrays import Values
 from ebac.scenario import Scenario
-
-Numbers = NDArray[np.float64]
 
 #: The criteria of the search, and what each asks of a press and of a tap.
 CRITERIA: dict[str, str] = {
@@ -65,14 +63,14 @@ class ZWidth:
     base: Scenario
     laws: tuple[str, ...]
     delays: tuple[int, ...]
-    dampings: Numbers
+    dampings: Values
     least: float
     top: float
     epsilon: float
     hands: int
-    limits: dict[str, Numbers]
-    spectral: Numbers
-    vibration: Numbers
+    limits: dict[str, Values]
+    spectral: Values
+    vibration: Values
 
     @property
     def random_hands(self) -> str:

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from ebac._core import LinearLoop, Timing, Wall
 from ebac._util.arguments import require
+from ebac._util.arrays import Values
 from ebac.laws import LAWS, AnyLaw
 from ebac.metrics import EXACT_COUNTS, ideal_rest
 from ebac.metrics.unjudged import no_ideal_rest
@@ -19,7 +20,7 @@ from ebac.studies.families import PULL, families
 from ebac.studies.sweeps import SweepResult, sweep
 from ebac.studies.sweeps.run import Laws, name_laws
 from ebac.studies.zwidth.linear import stiffness_limit
-from ebac.studies.zwidth.result import CRITERIA, SEEDS, STIFFNESSES, Numbers, ZWidth
+from ebac.studies.zwidth.result import CRITERIA, SEEDS, STIFFNESSES, ZWidth
 
 #: Wall dampings [N s/m]: up to ten times the reference device's own.
 DAMPINGS = (0.0, 2.5, 5.0, 7.5, 10.0, 12.5, 15.0, 17.5, 20.0)
@@ -41,7 +42,7 @@ def zwidth(
     *,
     base: Scenario | None = None,
     delays: Sequence[int] = (0, 1, 2),
-    dampings: Sequence[float] | Numbers = DAMPINGS,
+    dampings: Sequence[float] | Values = DAMPINGS,
     least: float = 100.0,
     top: float = 1e5,
     rungs: int = 31,
@@ -130,7 +131,7 @@ class _Search:
         }
         self.report: Callable[[int], None] = lambda runs: None
 
-    def border(self, law: AnyLaw, points: list[Point], ladder: Numbers) -> Numbers:
+    def border(self, law: AnyLaw, points: list[Point], ladder: Values) -> Values:
         """Return the largest stiffness by criterion and point."""
         n, rungs = len(points), len(ladder)
         passed = self.passes(law, [(p, k) for p in points for k in ladder]).reshape(-1, n, rungs)
@@ -159,7 +160,7 @@ class _Search:
         held[[energy, usable]] &= self.drawn(law, tasks, held[energy]) <= self.epsilon
         return held
 
-    def vibration(self, law: AnyLaw, timings: list[Timing]) -> Numbers:
+    def vibration(self, law: AnyLaw, timings: list[Timing]) -> Values:
         """Return the vibration by timing, stiffness and seed, the larger of both approaches [thresholds]."""
         wall = self.base.environment
         damping = wall.damping if isinstance(wall, Wall) else 0.0
@@ -176,7 +177,7 @@ class _Search:
         shape = (len(timings), len(STIFFNESSES), SEEDS, len(APPROACHES))
         return np.asarray(vibrates.reshape(shape).max(axis=3))
 
-    def drawn(self, law: AnyLaw, tasks: list[tuple[Point, float]], asked: Flags) -> Numbers:
+    def drawn(self, law: AnyLaw, tasks: list[tuple[Point, float]], asked: Flags) -> Values:
         """Return the most energy that a random hand draws, for each wall that is asked for; else 0 [J]."""
         walls = [self._scenario(p, k, 0.0) for (p, k), ask in zip(tasks, asked, strict=True) if ask]
         runs = [family.make(wall, values) for wall in walls for family, values in self.explorers]
@@ -196,7 +197,7 @@ class _Search:
         return self.base.replace(timing=timing, environment=wall, hand=self.hands[way])
 
 
-def _judge(result: SweepResult, base: Scenario, epsilon: float, stiffness: Numbers) -> Flags:
+def _judge(result: SweepResult, base: Scenario, epsilon: float, stiffness: Values) -> Flags:
     still, quiet = result["still"], result["quiet"]
     energy = _whole(result) & (result["least_energy_J"] >= -epsilon)
     surface = _surface(base) + np.resize(APPROACHES, len(result))
