@@ -3,6 +3,8 @@
 from pathlib import Path
 
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 from typer.testing import CliRunner
 
 import ebac
@@ -26,9 +28,27 @@ def test_a_condition_that_is_written_out_is_what_it_says() -> None:
     assert made.summary == "2 samples of delay, device damping 0.5 N s/m, wall 15 kN/m"
 
 
+@given(kilo=st.floats(0.01, 1000), damping=st.floats(0, 10), delay=st.integers(0, 5))
+def test_a_condition_of_the_wall_alone_changes_its_stiffness_and_nothing_else(
+    kilo: float, damping: float, delay: int
+) -> None:
+    base = ebac.Scenario(
+        device=ebac.Device(mechanics=ebac.Mechanics(damping=damping, coulomb=0.1)),
+        environment=ebac.Wall(stiffness=3e3, damping=damping, position=1e-3),
+        timing=ebac.Timing(delay=delay),
+    )
+    (made,) = conditions([f"K{kilo:.3f}"])
+    changed = made.change(base)
+    assert changed.environment.stiffness == pytest.approx(1e3 * kilo, abs=0.5)
+    assert changed.replace(environment=changed.environment.replace(stiffness=3e3)) == base
+    assert made.believed(changed) == (base.device.facts, base.known_timing)
+
+
 @pytest.mark.parametrize(
     ("written", "name"),
     [
+        ("k10", "K10"),
+        ("K010.0", "K10"),
         ("d2K15", "d2b2K15"),
         ("d2K20", "d2b2K20"),
         ("d1b2.0K10", "d1b2K10"),
@@ -82,8 +102,13 @@ def test_an_error_teaches_how_a_condition_is_written(command: str) -> None:
     assert "--condition d2M15: no such name" in text
     assert "`ebac conditions` lists all" in text
     assert "or write one out, as d2b1K15: 2 samples of delay, device damping 1 N s/m" in text
-    text = told(*command.split(), "-c", "d2K99999", code=2)
-    assert "--condition d2K99999: Wall.stiffness = 99999000 N/m: must lie in [0, 1e+07] N/m" in text
+    assert "K15 changes the stiffness of the wall only" in text
+    for name, right in (("d2K20000", "d2K20"), ("K20000", "K20")):
+        text = told(*command.split(), "-c", name, code=2)
+        assert (
+            f"--condition {name}: Wall.stiffness = 2e+07 N/m: must lie in [0, 1e+07] N/m; " in text
+        )
+        assert f"the number after K is in kN/m: 20000 N/m is {right}" in text
 
 
 def test_a_search_takes_one_condition() -> None:
@@ -116,6 +141,10 @@ def test_a_note_says_what_a_condition_replaces_of_a_scenario(tmp_path: Path) -> 
     assert text == (
         "Note: of the scenario condition d2K15 replaces device.mechanics.damping = 5 N s/m by 2; "
         "environment.stiffness = 3000 N/m by 15000; timing.delay = 3 samples by 2."
+    )
+    text = told(*study, "-c", "K5,K10")
+    assert text.removeprefix("Note: of the scenario the conditions replace ") == (
+        "environment.stiffness = 3000 N/m by 5000 or 10000."
     )
     text = told(*study, "-c", "d1K10,d3b5K10")
     assert "the conditions replace device.mechanics.damping = 5 N s/m by 2; " in text

@@ -38,11 +38,11 @@ def tell_conditions(names: Iterable[str]) -> None:
 
     for name in names:
         written = written_out(name)
-        if written is None or not (text := doubt(1e3 * written[2])):
+        if written is None or not (text := doubt(1e3 * written.kilo)):
             continue
         end = name.upper().rindex("K")
-        other = f", so that {written[2]:g} N/m is {name[:end]}K{written[2] / 1e3:g}"
-        hint = other if not doubt(written[2]) else ""
+        other = f", so that {written.kilo:g} N/m is {name[:end]}K{written.kilo / 1e3:g}"
+        hint = other if not doubt(written.kilo) else ""
         output.note(f"condition {name}: {text}; the number after K is in kN/m{hint}")
 
 

@@ -65,6 +65,15 @@ def _cell(name: str, delay: int, damping: float, kilo: float) -> Condition:
     return Condition(name=name, summary=summary, change=cell(delay, damping, 1e3 * kilo))
 
 
+def wall_of(kilo: float) -> Condition:
+    """Return the condition that changes the stiffness of the wall [kN/m] and nothing else."""
+    return Condition(
+        name=f"K{kilo:g}",
+        summary=f"wall {kilo:g} kN/m, all else as in the scenario",
+        change=to.wall(stiffness=1e3 * kilo),
+    )
+
+
 def _robust(
     name: str,
     summary: str,
@@ -258,8 +267,9 @@ GROUPS: dict[str, tuple[str, ...]] = {
 def conditions(names: Iterable[str | Condition]) -> list[Condition]:
     """Return conditions by name or group, each once, in the order asked; a Condition stands for itself.
 
-    A name such as d2b1K15 that is none of `CONDITIONS` is understood, too: see `written_out`. A condition has the name
-    by which it was first asked for: d2K20, though the group `cells` calls it d2b2K20.
+    A name such as d2b1K15 that is none of `CONDITIONS` is understood, too: see `written_out`. K15 changes the stiffness
+    of the wall to 15 kN/m and leaves delay, device and the wall's damping as they are. A condition has the name by
+    which it was first asked for: d2K20, though the group `cells` calls it d2b2K20.
 
     Raises
     ------
@@ -290,6 +300,8 @@ def _named(name: str) -> list[Condition]:
     if numbers is None:
         near = unknown(f"condition {name}", name, [*GROUPS, *CONDITIONS], "condition")
         raise ValueError(f"{near}; {GRAMMAR}")
-    delay, damping, kilo = numbers
-    canonical = f"d{delay}b{damping:g}K{kilo:g}"
-    return [CONDITIONS.get(canonical) or _cell(canonical, delay, damping, kilo)]
+    if numbers.name in CONDITIONS:
+        return [CONDITIONS[numbers.name]]
+    if numbers.delay is None or numbers.damping is None:
+        return [wall_of(numbers.kilo)]
+    return [_cell(numbers.name, numbers.delay, numbers.damping, numbers.kilo)]

@@ -13,7 +13,8 @@ def conditions(as_json: output.AsJson = False) -> None:
     """List the conditions of a study and their groups.
 
     A name such as d1b2K10 stands for 1 sample of delay, device damping 2 N s/m, and a wall of 10 kN/m. Any other
-    numbers may be written in their places where a condition is asked for: d2b0.5K15, or d2K15 with 2 N s/m.
+    numbers may be written in their places where a condition is asked for: d2b0.5K15, or d2K15 with 2 N s/m. K15 changes
+    the stiffness of the wall only: delay, device and the wall's damping are those of the scenario.
 
     **Examples**
 
@@ -22,6 +23,8 @@ def conditions(as_json: output.AsJson = False) -> None:
     * `ebac study --condition five --law ebac`: the five of one group
 
     * `ebac study --condition d2K15 --law ebac`: 2 samples of delay, 15 kN/m
+
+    * `ebac study --condition K5,K10,K20 --law ebac`: three walls, all else as in the scenario
     """
     from ebac.studies import CONDITIONS, GROUPS
 
@@ -41,4 +44,6 @@ def conditions(as_json: output.AsJson = False) -> None:
         groups = [name for name in row["groups"] if name != "all"]
         grid.add_row(row["condition"], row["what"], ", ".join(groups))
     output.show(grid)
-    output.say("The group `all` is every condition.")
+    output.say(
+        "The group `all` is every condition. Written out: d2b0.5K15, or K15 for the wall alone, see --help."
+    )

@@ -54,8 +54,8 @@ def study(
     condition: Annotated[
         list[str] | None,
         options.conditions(
-            "A condition or a group of them, see `ebac conditions`, or one written out, such as d2K15; several "
-            "separated by commas.",
+            "A condition or a group of them, see `ebac conditions`, or one written out, such as d2K15, or K15 to "
+            "change the stiffness of the wall only; several separated by commas.",
             panel=_WHAT,
             default="d1K10",
         ),

@@ -33,7 +33,8 @@ def worst(
     condition: Annotated[
         str,
         options.conditions(
-            "A condition of device, timing or wall, see `ebac conditions`, or one written out, as d2K15.",
+            "A condition of device, timing or wall, see `ebac conditions`, or one written out, as d2K15, or K15 to "
+            "change the stiffness of the wall only.",
             panel=_WHAT,
         ),
     ] = "d1K10",
