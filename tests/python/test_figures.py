@@ -95,6 +95,31 @@ def test_walls_fit_any_column(laws: tuple[str, ...], width: str | None, run: Run
     check_inside(figure, None if width is None else millimetres(width) / 25.4)
 
 
+@pytest.mark.parametrize(
+    "laws", [("ebac",), ("lag-compensator", "ebac"), ("tca", "tca", "eba", "ebac")]
+)
+def test_walls_fill_one_column_where_there_is_beta_and_friction(
+    laws: tuple[str, ...], run: Run
+) -> None:
+    device = ebac.Device(mechanics=ebac.Mechanics(coulomb=0.1))
+    wall = ebac.Wall(stiffness=4000.0)
+    runs = [run(law, device=device, environment=wall, observer=False, seconds=2.0) for law in laws]
+    figure = plot_walls(runs)
+    assert any("beta" in ax.get_ylabel() for ax in figure.axes)
+    assert figure.narrow is not None
+    column = figure.narrow()
+    inches = millimetres("single") / 25.4
+    check_inside(column, inches)
+    with fitted(column, inches):
+        column.draw_without_rendering()
+        places = [ax.get_position() for ax in column.axes]
+        assert max(place.x1 for place in places) > 0.93
+        assert max(place.width for place in places) > 0.75
+    with fitted(figure, millimetres("double") / 25.4):
+        figure.draw_without_rendering()
+        assert max(ax.get_position().x1 for ax in figure.axes) > 0.95
+
+
 @pytest.mark.parametrize("laws", [("tca", "ebac"), ("direct", "tca", "eba", "ebac")])
 def test_walls_name_the_laws_of_the_observer_and_the_peak_force(
     laws: tuple[str, ...], run: Run

@@ -62,6 +62,7 @@ def fit_legends(
             if columns == 1 or new.get_window_extent(renderer).width <= room:
                 break
             _drop(figure, new)
+        _break_lines(new, room, renderer)
         # last of all, when the lines it copies are as they were
         undo.insert(0, partial(_again, figure, new, owner, options))
 
@@ -75,6 +76,18 @@ def _room(figure: Figure, owner: Axes | Figure, renderer: RendererBase) -> float
     labels = owner.yaxis.get_tightbbox(renderer)
     beside = labels.width if labels is not None else 0.0
     return 0.95 * column_share(owner) * figure.bbox.width - beside
+
+
+def _break_lines(one: Legend, room: float, renderer: RendererBase) -> None:
+    """Break the entries of a legend of one column that is too wide into lines that fit."""
+    from ebac.plot.save import balanced
+
+    words = [text.get_text() for text in one.get_texts()]
+    most = max(map(len, words))
+    while most > 12 and one.get_window_extent(renderer).width > room:
+        most -= 1
+        for text, whole in zip(one.get_texts(), words, strict=True):
+            text.set_text("\n".join(balanced(part, most) for part in whole.split("\n")))
 
 
 def _make(owner: Axes | Figure, options: dict[str, Any]) -> Legend:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import partial
 from textwrap import fill
 from typing import Any
 
@@ -54,15 +55,20 @@ def plot_walls(traces: Sequence[Trace]) -> Picture:
     """
     if not traces or min(len(trace) for trace in traces) < 10:
         raise ValueError("a figure of walls needs at least one trace, each of at least 10 rows")
+    return _draw(traces, narrow=False)
+
+
+def _draw(traces: Sequence[Trace], *, narrow: bool) -> Picture:
     ideal = ideal_rest(traces[0].scenario) if traces[0].scenario else None
     contact = _first_contact(traces)
     begun = [_parts(trace, contact)[0] for trace in traces]
     rows = [row for row in ROWS if row != "beta" or any(map(_has_beta, begun))]
     draw = _together if len(traces) <= TOGETHER else _apart
     rests = ideal is not None and any(_offset(trace, ideal) is not None for trace in traces)
-    figure, near = draw(traces, rows, near=rests)
+    figure, near = draw(traces, rows, near=rests, narrow=narrow)
+    figure.narrow = partial(_draw, traces, narrow=True)
     if ideal is not None and near is not None:
-        _near(near, traces, ideal)
+        _near(near, traces, ideal, named=draw is _apart)
     if traces[0].scenario is not None:
         figure.suptitle(_heading(traces, traces[0].scenario), fontsize="medium")
     figure.align_ylabels()
@@ -80,14 +86,17 @@ def _heading(traces: Sequence[Trace], scenario: Scenario) -> str:
     return text.replace(", state observer for laws made for it", by)
 
 
-def _together(traces: Sequence[Trace], rows: list[str], near: bool) -> tuple[Picture, Axes | None]:
+def _together(
+    traces: Sequence[Trace], rows: list[str], *, near: bool, narrow: bool
+) -> tuple[Picture, Axes | None]:
     """Draw all laws in the same panels: the beginning on the left, the end on the right."""
     names: list[Any] = [[row, f"{row} end"] for row in ("x", "f")]
+    abreast = "beta" in rows and near and not narrow
     if "beta" in rows:
-        names.append(["beta", "near" if near else "."])  # at rest there is no beta
-    elif near:
+        names.append(["beta", "near" if abreast else "."])  # at rest there is no beta
+    if near and not abreast:
         names.append(["near", "near"])
-    figure = new_figure(11, 2.7 * len(names) + 1.0)
+    figure = new_figure(5 if narrow else 11, (1.9 if narrow else 2.7) * len(names) + 1.0)
     axes = figure.subplot_mosaic(names, width_ratios=[2, 1])
     for trace in sorted(traces, key=_restlessness):
         begin, end = _parts(trace, _first_contact(traces))
@@ -116,19 +125,23 @@ def _together(traces: Sequence[Trace], rows: list[str], near: bool) -> tuple[Pic
     return figure, axes.get("near")
 
 
-def _apart(traces: Sequence[Trace], rows: list[str], near: bool) -> tuple[Picture, Axes | None]:
+def _apart(
+    traces: Sequence[Trace], rows: list[str], *, near: bool, narrow: bool
+) -> tuple[Picture, Axes | None]:
     """Draw each law in panels of its own, three or four laws abreast; few panels of beta stand beside the end."""
-    abreast = min((3, 4), key=lambda n: -len(traces) % n)  # leaving the fewest places empty
+    abreast = 2 if narrow else min((3, 4), key=lambda n: -len(traces) % n)  # fewest empty places
     bands = [traces[i : i + abreast] for i in range(0, len(traces), abreast)]
     beside = [trace for trace in traces if _has_beta(trace)] if near and "beta" in rows else []
-    if len(beside) > abreast // 2:
+    if narrow or len(beside) > abreast // 2:
         beside = []
     if beside:
         rows = [row for row in rows if row != "beta"]
     lines = [
         (band, row) for band in bands for row in rows if row != "beta" or any(map(_has_beta, band))
     ]
-    figure = new_figure(11, 1.6 * len(lines) + 0.4 * len(bands) + (2.2 if near else 0) + 1.0)
+    figure = new_figure(
+        5 if narrow else 11, 1.6 * len(lines) + 0.4 * len(bands) + (2.2 if near else 0) + 1.0
+    )
     heights = [1.0] * len(lines) + ([1.4] if near else [])
     grid = figure.add_gridspec(len(heights), abreast, height_ratios=heights)
     contact = _first_contact(traces)
@@ -233,8 +246,8 @@ def _offset(trace: Trace, ideal: float) -> tuple[Values, Values] | None:
     return (part["t"], offset) if near else None
 
 
-def _near(ax: Axes, traces: Sequence[Trace], ideal: float) -> None:
-    """Draw the last 30 % around the ideal point, at the scale of encoder counts."""
+def _near(ax: Axes, traces: Sequence[Trace], ideal: float, *, named: bool) -> None:
+    """Draw the last 30 % around the ideal point, at the scale of encoder counts; its legend may name the laws."""
     scenario = traces[0].scenario
     band = _band(traces[0])
     friction = scenario is not None and band > 1.001e3 * EXACT_COUNTS * scenario.device.count
@@ -248,7 +261,7 @@ def _near(ax: Axes, traces: Sequence[Trace], ideal: float) -> None:
         if offset is None:
             away.append(trace.law)
         else:
-            line(ax, *offset, color=colour(trace.law), lw=1.2, label=trace.law)
+            line(ax, *offset, color=colour(trace.law), lw=1.2, label=trace.law if named else "_")
     dress(ax, "beyond the\nideal rest [mm]")
     ax.set_xlabel("time [s]")
     if away:
