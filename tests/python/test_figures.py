@@ -265,6 +265,23 @@ def test_saving_leaves_the_figure_as_it_was(run: Run, tmp_path: Path) -> None:
     assert state() == before
 
 
+def test_a_figure_is_saved_without_its_title(run: Run, tmp_path: Path) -> None:
+    figure = plot_columns(run("eba", seconds=1.0), ["x"])
+    title = figure.get_suptitle()
+    panels = []
+    for shown in (True, False):
+        with fitted(figure, title=shown):
+            figure.draw_without_rendering()
+            panels.append(figure.axes[0].get_position().height)
+    assert panels[1] > panels[0]  # its room is the panel's
+    with_title, without = (
+        save(figure, tmp_path / f"{shown}.svg", title=shown).read_text() for shown in (True, False)
+    )
+    assert "seed 1 -->" in with_title  # what a text was, in a comment beside its outlines
+    assert "seed 1 -->" not in without
+    assert figure.get_suptitle() == title
+
+
 @pytest.mark.parametrize("width", ["triple", "5", 3000, "nan"])
 def test_wrong_widths_are_refused(width: str | float) -> None:
     with pytest.raises(ValueError, match="width = "):

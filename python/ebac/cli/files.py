@@ -29,7 +29,7 @@ Force: TypeAlias = Annotated[
 
 @dataclass(frozen=True, kw_only=True)
 class FigureOptions:
-    """Formats and width of figures."""
+    """Formats and width of figures, and whether they have titles."""
 
     figure_format: Annotated[
         list[str] | None,
@@ -49,6 +49,14 @@ class FigureOptions:
             rich_help_panel=PANEL,
         ),
     ] = None
+    no_title: Annotated[
+        bool,
+        typer.Option(
+            "--no-title",
+            help="Leave the titles out of figures, for a paper whose captions say what was simulated.",
+            rich_help_panel=PANEL,
+        ),
+    ] = False
 
     def check(self) -> None:
         """End the command on a wrong format or width, before any work."""
@@ -81,7 +89,7 @@ class FigureOptions:
         """Write a figure to one file, in the format of its extension."""
         from ebac.plot import save
 
-        save(figure, file, width=self.width)
+        save(figure, file, width=self.width, title=not self.no_title)
 
 
 @dataclass(frozen=True, kw_only=True)

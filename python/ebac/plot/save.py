@@ -48,6 +48,7 @@ def save(
     *,
     file_format: str | None = None,
     width: str | float | None = None,
+    title: bool = True,
 ) -> Path:
     """Save a figure.
 
@@ -62,6 +63,9 @@ def save(
     width : {"single", "double"} or float, optional
         Width on paper: one column (89 mm), two columns (183 mm), or millimetres. Letters shrink to
         6 pt at most; legends and titles are broken into lines that fit. Default: as drawn.
+    title : bool, optional
+        Whether the figure's title, which says what was simulated, is saved with it; in a paper the caption says that.
+        The titles of panels stay.
 
     Returns
     -------
@@ -85,7 +89,7 @@ def save(
     if narrow is not None and inches is not None and inches < NARROW:
         figure = narrow()
     dpi = DPI if inches is None else PRINT_DPI
-    with fitted(figure, inches):
+    with fitted(figure, inches, title=title):
         if file.suffix == ".png":
             write_png(figure, file, dpi)
         else:
@@ -122,11 +126,14 @@ def millimetres(width: str | float) -> float:
 
 
 @contextmanager
-def fitted(figure: Figure, inches: float | None = None) -> Iterator[None]:
+def fitted(figure: Figure, inches: float | None = None, *, title: bool = True) -> Iterator[None]:
     """Break legends and titles into lines that fit, at another width if one is given; undone at the end."""
     with _DRAWING:
         undo: Undo = []
         try:
+            if not title and (heading := getattr(figure, "_suptitle", None)) is not None:
+                _change(heading, "visible", False, undo)
+                _change(heading, "in_layout", False, undo)
             letters = None if inches is None else _resize(figure, inches, undo)
             renderer = RendererAgg(*figure.bbox.size, figure.dpi)  # type: ignore[no-untyped-call]
             fit_legends(figure, renderer, letters, undo)
@@ -186,7 +193,7 @@ def _change(artist: Any, name: str, value: Any, undo: Undo) -> None:
 def _titles(figure: Figure) -> Iterator[tuple[Text, float]]:
     """Yield titles and labels, each with the share of the figure's width it may take."""
     heading = getattr(figure, "_suptitle", None)
-    if heading is not None:
+    if heading is not None and heading.get_visible():
         yield heading, 0.97
     for ax in figure.axes:
         share = 0.92 * column_share(ax)  # beside a colour bar it is off the middle of its column

@@ -68,7 +68,7 @@ def wall(
 
     * `ebac wall --through can`: over a CAN bus, with simulated drives
 
-    * `ebac wall --format pdf --width single`: a figure for a journal's column
+    * `ebac wall --format pdf --width single --no-title`: a figure for a journal's column
 
     * `ebac wall --out first`, then `ebac wall --scenario first/scenario.toml --seed 7`: another seed
     """
