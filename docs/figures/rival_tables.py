@@ -316,7 +316,7 @@ def _best(scores: dict[tuple[str, str, int], Row]) -> str:
 
 
 def _ceilings(found: Row) -> str:
-    rows, top = found["rows"], found["top_N_per_m"]
+    rows, top = found["rows"], found["most_stiffness_N_per_m"]
     linear, passive = [], []
     for d in DELAYS:
         of = [r for r in rows if r["delay_samples"] == d and r["law"] == "direct"]

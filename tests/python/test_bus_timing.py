@@ -51,7 +51,7 @@ def network(bitrate: int = 1_000_000, **more: object) -> drives.Network:
 
 def test_an_exchange_of_five_frames_takes_under_half_a_millisecond_at_1_mbit() -> None:
     """515 us is the worst case; data that are random have fewer stuff bits, and drives answer after 50 us."""
-    found = drives.bus_timing(network(), answer=0.6e-3, ticks=200)
+    found = drives.bus_timing(network(), answer_share=0.6, ticks=200)
     assert found.good
     assert 0.40e-3 < found.mean < found.worst < 0.515e-3 + 0.05e-3 + 0.26e-3
     assert found.errors == 0
@@ -70,7 +70,7 @@ def test_a_lower_identifier_goes_first() -> None:
     """Foreign traffic of low priority holds an exchange up by the frame under way, wherever the bus becomes free."""
     busy = drives.Traffic(name="others", size=8, rate=3500.0)
     alone, beside = (
-        drives.bus_timing(network(others=others), answer=0.9e-3, ticks=200)
+        drives.bus_timing(network(others=others), answer_share=0.9, ticks=200)
         for others in ((), (busy,))
     )
     assert alone.worst < beside.worst < alone.worst + 4 * 135e-6
@@ -78,8 +78,8 @@ def test_a_lower_identifier_goes_first() -> None:
 
 
 def test_destroyed_frames_cost_time_and_a_broken_node_goes_off_the_bus() -> None:
-    found = drives.bus_timing(network(), answer=0.9e-3, ticks=300, error_rate=0.02, seed=3)
-    clean = drives.bus_timing(network(), answer=0.9e-3, ticks=300, seed=3)
+    found = drives.bus_timing(network(), answer_share=0.9, ticks=300, error_rate=0.02, seed=3)
+    clean = drives.bus_timing(network(), answer_share=0.9, ticks=300, seed=3)
     assert found.errors > 5
     assert found.worst > clean.worst
     assert found.off == ()
@@ -95,7 +95,9 @@ def test_the_same_seed_gives_the_same() -> None:
     assert first == again
 
 
-@pytest.mark.parametrize("wrong", [{"dt": 0.0}, {"answer": 2.0}, {"ticks": 0}, {"error_rate": 1.5}])
+@pytest.mark.parametrize(
+    "wrong", [{"dt": 0.0}, {"answer_share": 2.0}, {"ticks": 0}, {"error_rate": 1.5}]
+)
 def test_wrong_values_are_refused(wrong: dict[str, float]) -> None:
     with pytest.raises(ValueError, match=f"{next(iter(wrong))} = .*must lie in"):
         drives.bus_timing(network(), **wrong)  # type: ignore[arg-type]
@@ -103,9 +105,9 @@ def test_wrong_values_are_refused(wrong: dict[str, float]) -> None:
 
 def test_the_command_judges() -> None:
     for words, code in (
-        (["--answer", "0.6e-3"], 0),
+        (["--answer-share", "0.6"], 0),
         (["--broken", "1"], 1),
-        (["--dt", "0.2e-3"], 1),
+        (["--rate", "5000"], 1),
     ):
         done = CliRunner().invoke(app, ["drive", "timing", "--ticks", "50", *words])
         assert done.exit_code == code, done.output

@@ -383,7 +383,7 @@ def test_a_fault_is_told_and_its_log_kept(monkeypatch: pytest.MonkeyPatch, tmp_p
             )
             for command, end in (
                 ("wall --law ebac --seconds 0.1 --no-files --log", "mcap"),
-                ("specs --figure", "png"),
+                ("specs --out", "png"),
             )
         ),
         ("wall --no-files --out x", "exclude each other"),
@@ -707,7 +707,7 @@ def test_a_wall_in_a_wrong_unit_is_noted(given: str, words: str) -> None:
 
 def test_specs_of_a_device_file_draw_its_workspace() -> None:
     ebac.Scenario(device=ebac.presets.device("joystick")).save("mine.toml")
-    ebac_command("specs", "--scenario", "mine.toml", "--figure", "workspace.png")
+    ebac_command("specs", "--scenario", "mine.toml", "--out", "workspace.png")
     assert Path("workspace.png").is_file()
 
 

@@ -41,9 +41,9 @@ NEEDS = {
 #: The bus in the process, where a command opens one.
 BUS = ["--interface", "ebac", "--channel", "joystick"]
 #: Options whose text may be anything, or is looked up outside this program.
-FREE = {"--host", "--interface", "--channel", "--columns"}
+FREE = {"--host", "--interface", "--channel"}
 #: Files that are written, not read.
-WRITTEN = {"--out", "--log", "--backup", "--figure", "--page", "OUT"}
+WRITTEN = {"--out", "--log", "--backup", "--page", "OUT"}
 #: Numbers that may be as large, or as far below zero, as one likes.
 BOUNDLESS = {"--seed", "--axis", "--switch", "--from", "--to"}
 
@@ -99,7 +99,7 @@ def cases() -> Iterator[Case]:
         for parameter in inspect.signature(callback).parameters.values():
             name, argument = name_of(parameter)
             kind = plain(parameter.annotation)
-            times = 3 if name == "--force" and kind is float else many(parameter.annotation)
+            times = 3 if name == "--hand-force" else many(parameter.annotation)
             for what, value, hint in wrong(name, kind):
                 words = [value] if argument else [name, *[value] * times]
                 if what in ("text", "nan") and (what, kind) in seen:

@@ -67,6 +67,12 @@ def test_help_tells_the_order_of_things() -> None:
     assert places == sorted(places)
 
 
+def test_what_is_injected_is_one_document(drive: Run) -> None:
+    rows = drive("inject", "over-voltage", "--node", "2", "--json")["rows"]
+    assert rows == [{"node": 2, "faults": ["over-voltage"]}]
+    assert drive("inject", "--node", "2", "--json")["rows"] == [{"node": 2, "faults": []}]
+
+
 def test_scan_and_show(drive: Run) -> None:
     rows = drive("scan", "--timeout", "0.1", "--json")["rows"]
     assert [row["node"] for row in rows] == [1, 2]

@@ -110,8 +110,8 @@ def test_the_error_budget_stands_beside_the_table() -> None:
         ([], "give files to fit, or --simulated"),
         (["circle.csv", "--simulated"], "give files to fit, or --simulated"),
         (["nothing.csv"], "nothing.csv: there is no such file"),
-        (["circle.csv", "--columns", "x"], "--columns = x: must be two or three, like x,y"),
-        (["circle.csv", "--columns", "x,w"], "circle.csv: column 'w': no such name; there are: "),
+        (["circle.csv", "--column", "x"], "--column = x: must be two or three, like x,y"),
+        (["circle.csv", "--column", "x,w"], "circle.csv: column 'w': no such name; there are: "),
         (
             ["circle.csv", "--unit", "inch"],
             "--unit = 'inch': no such name, did you mean 'in'; there are: m, mm, cm",

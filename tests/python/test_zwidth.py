@@ -170,15 +170,15 @@ def test_random_hands_find_the_energy_that_a_press_and_a_tap_do_not() -> None:
     pressed, explored = (search(base=base, laws=laws, hands=n, **few) for n in (0, 2))
     lag, account = 0, 1
     assert (explored.limits["energy"][lag] < 0.5 * pressed.limits["energy"][lag]).all()
-    assert (explored.limits["energy"][account] == explored.top).all()  # proven passive
+    assert (explored.limits["energy"][account] == explored.most_stiffness).all()  # proven passive
     assert (explored.limits["usable"] <= explored.limits["energy"]).all()
     for name in ("still", "quiet"):
         assert (explored.limits[name] == pressed.limits[name]).all()
 
 
 def test_eba_is_still_on_every_wall_and_shows_few(found: ZWidth) -> None:
-    assert (found.limits["still"][1] == found.top).all()
-    assert (found.limits["usable"][1] < 0.2 * found.top).all()
+    assert (found.limits["still"][1] == found.most_stiffness).all()
+    assert (found.limits["usable"][1] < 0.2 * found.most_stiffness).all()
 
 
 def test_rows_and_scores(found: ZWidth) -> None:
@@ -198,7 +198,9 @@ def test_rows_and_scores(found: ZWidth) -> None:
     border = found.limits["quiet"][0, 0]
     assert direct["quiet_area"] == pytest.approx(10 * border.mean())
     assert direct["quiet_times_direct"] == 1
-    assert direct["usable_share"] == pytest.approx(found.limits["usable"][0, 0].mean() / found.top)
+    assert direct["usable_share"] == pytest.approx(
+        found.limits["usable"][0, 0].mean() / found.most_stiffness
+    )
 
 
 def test_vibration_shows_how_near_a_law_is_to_its_border() -> None:
@@ -225,7 +227,7 @@ def test_a_border_says_what_it_ends_by(found: ZWidth) -> None:
     """`direct` shakes, `eba` shows few walls at half of their stiffness."""
     assert found.ended_by("eba", 1)[0] == "too soft"
     assert set(found.ended_by("direct", 0)) <= {"limit cycle", "vibration", "energy"}
-    low = search(laws="direct", delays=(0,), dampings=(0.0, 0.1), top=300.0)
+    low = search(laws="direct", delays=(0,), dampings=(0.0, 0.1), most_stiffness=300.0)
     assert low.ended_by("direct", 0) == ["top", "top"]
     assert low.share("direct", 0) == 1
 
@@ -234,7 +236,7 @@ def test_the_share_of_a_single_damping(found: ZWidth) -> None:
     one = replace(
         found, dampings=found.dampings[:1], limits={n: x[..., :1] for n, x in found.limits.items()}
     )
-    assert one.share("direct", 0) == found.limits["usable"][0, 0, 0] / found.top
+    assert one.share("direct", 0) == found.limits["usable"][0, 0, 0] / found.most_stiffness
     words = {"still": "limit cycle", "quiet": "vibration", "energy": "energy"}
     for row in found.rows():
         criterion = next(
@@ -263,7 +265,7 @@ def test_progress_comes_to_its_end(hands: int) -> None:
     ("changes", "message"),
     [
         ({"dampings": (5.0, 0.0)}, r"dampings = \(5.0, 0.0\) N s/m: must be at least two, rising"),
-        ({"least": 0.0}, "least = 0.0 N/m, top = 100000.0 N/m"),
+        ({"least_stiffness": 0.0}, "least_stiffness = 0.0 N/m, most_stiffness = 100000.0 N/m"),
         ({"rungs": 1}, "rungs = 1: must be at least 2"),
         ({"epsilon": -1.0}, "epsilon = -1.0 J"),
         ({"hands": -1}, r"hands = -1: must lie in \[0, 1000\]"),
@@ -315,7 +317,7 @@ def test_a_law_that_renders_nothing_says_so_at_its_bar_and_in_the_legend(found: 
 def test_borders_that_coincide_all_remain_visible_and_a_law_without_one_is_named(
     found: ZWidth,
 ) -> None:
-    same = np.full_like(found.limits["quiet"][0], found.top)
+    same = np.full_like(found.limits["quiet"][0], found.most_stiffness)
     three = replace(
         found,
         laws=("direct", "eba", "ebac"),
@@ -396,8 +398,8 @@ def test_a_device_file_without_a_length_has_that_of_the_command(
 
 
 def test_a_top_below_the_least_is_named() -> None:
-    text = " ".join(command("--top", "50", code=2).split())
-    assert "--top = 50 N/m: must lie above --least = 100 N/m" in text
+    text = " ".join(command("--most-stiffness", "50", code=2).split())
+    assert "--most-stiffness = 50 N/m: must lie above --least-stiffness = 100 N/m" in text
 
 
 @pytest.mark.slow
@@ -425,5 +427,7 @@ def test_the_command_puts_other_parameters_of_a_law_beside_it() -> None:
 
 def test_the_command_refuses() -> None:
     assert "did you mean 'direct'" in " ".join(command("--law", "dirct", code=2).split())
-    assert "--least = -1 N/m: must lie in (0, 100000) N/m" in command("--least", "-1", code=2)
-    assert "--top = -1 N/m" in command("--top", "-1", code=2)
+    assert "--least-stiffness = -1 N/m: must lie in (0, 100000) N/m" in command(
+        "--least-stiffness", "-1", code=2
+    )
+    assert "--most-stiffness = -1 N/m" in command("--most-stiffness", "-1", code=2)

@@ -25,8 +25,10 @@ def track(
         ),
     ] = None,
     columns: Annotated[
-        str | None,
+        list[str] | None,
         typer.Option(
+            "--column",
+            "-c",
             help="Columns of the position, separated by commas.",
             show_default="x,y or x,y,z",
             rich_help_panel=_READ,
@@ -110,7 +112,7 @@ def track(
             return
         from ebac.tracking import evaluate, read_path
 
-        chosen = [c.strip() for c in columns.split(",")] if columns else None
+        chosen = output.words(columns) or None
         found = [
             evaluate(read_path(file, columns=chosen, unit=unit), shape=shape, robust=robust)
             for file in files or []

@@ -14,7 +14,7 @@ from ebac._util.headings import FACTORS
 #: Options of a scenario, and the options that set the same where a command varies it.
 VARIED = {
     r"--hand(-\w+)?": ("--population", "--family"),
-    r"--wall-\w+": ("--condition", "--top"),
+    r"--wall-\w+": ("--condition", "--most-stiffness"),
     r"--delay": ("--condition",),
     r"--device-(mass|damping|inertia|radius|count|motor|encoder)": ("--scenario",),
 }

@@ -78,7 +78,7 @@ def bus_timing(
     network: Network,
     *,
     dt: float = 1e-3,
-    answer: float | None = None,
+    answer_share: float | None = None,
     ticks: int = 1000,
     error_rate: float = 0.0,
     broken: int | None = None,
@@ -100,8 +100,8 @@ def bus_timing(
         The drives, with bit rate and other traffic.
     dt : float
         Sample time [s], 1e-4 to 1.
-    answer : float, optional
-        How long the loop waits for answers [s]; default: 0.7 of `dt`, as `Configuration` has it.
+    answer_share : float, optional
+        How long the loop waits for answers, as a share of `dt`, 0 to 1; default: 0.7, as `Configuration` has it.
     ticks : int
         How many samples, 1 to 1e6.
     error_rate : float
@@ -116,9 +116,9 @@ def bus_timing(
     ValueError
         For a value out of range.
     """
-    wait = TimedBus().answer_share * dt if answer is None else answer
+    share = TimedBus().answer_share if answer_share is None else answer_share
     for name, value, low, high in (
-        ("dt", dt, 1e-4, 1.0), ("answer", wait, 0.0, dt), ("ticks", ticks, 1, 1e6),
+        ("dt", dt, 1e-4, 1.0), ("answer_share", share, 0.0, 1.0), ("ticks", ticks, 1, 1e6),
         ("error_rate", error_rate, 0.0, 1.0),
     ):  # fmt: skip
         if not low <= value <= high:
@@ -132,7 +132,7 @@ def bus_timing(
     ids = [node.id for node in network.nodes]
     if broken in ids:
         wire.break_station(_DRIVES + ids.index(broken))
-    return _Exchanges(network, wire, dt, wait, random.Random(seed)).run(ticks)
+    return _Exchanges(network, wire, dt, share * dt, random.Random(seed)).run(ticks)
 
 
 def _ns(seconds: float) -> int:

@@ -98,11 +98,11 @@ def _borders(ax: Axes, found: ZWidth, criterion: str, d: int) -> None:
     drawn = [_kilo(found.limits[criterion][i, d]) for i in range(len(shades))]
     draw_shared(ax, found.dampings, drawn, list(shades.values()), WIDTH)
     ax.axhline(
-        1e-3 * found.top,
+        1e-3 * found.most_stiffness,
         color="0.6",
         lw=0.8,
         zorder=0,
-        label=f"end of the search, {1e-3 * found.top:g} kN/m",
+        label=f"end of the search, {1e-3 * found.most_stiffness:g} kN/m",
     )
     if absent := [law for law, limit in zip(shades, drawn, strict=True) if np.isnan(limit).all()]:
         text = "\n".join(wrap(f"no wall: {', '.join(absent)}", 44))
@@ -111,7 +111,7 @@ def _borders(ax: Axes, found: ZWidth, criterion: str, d: int) -> None:
         CEILINGS.get(criterion, {}).items(), _ceilings(found, criterion, d), strict=True
     ):
         ax.plot(dampings, _kilo(ceiling), **style, label=name)
-    ax.set_ylim(1e-3 * found.least, 1.3e-3 * found.top)
+    ax.set_ylim(1e-3 * found.least_stiffness, 1.3e-3 * found.most_stiffness)
     ax.set_yscale("log")  # after the limits: it finds none where all lines lie at the top
     ax.yaxis.set_major_formatter("{x:g}")
     ax.xaxis.set_major_locator(MaxNLocator(5))
@@ -151,6 +151,6 @@ def _areas(ax: Axes, found: ZWidth, delay: int) -> None:
         for place, area in zip(places, areas, strict=True):
             if criterion == "quiet" and area == 0:
                 ax.annotate("none", (0, place), (4, 0), textcoords="offset points", va="center")
-    ax.set_xlim(0, 1.02e-3 * found.top)
+    ax.set_xlim(0, 1.02e-3 * found.most_stiffness)
     ax.set_xlabel("mean K [kN/m]; pale: quiet, full: usable")
     dress(ax, "")

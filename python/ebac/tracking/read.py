@@ -146,7 +146,9 @@ def _guess(names: list[str], bare: dict[str, str]) -> list[str]:
         found = [bare[n] for n in triple if n in names]
         if len(found) >= 2:
             return found
-    raise ValueError(f"no columns x and y among {', '.join(names)}: name them with --columns")
+    raise ValueError(
+        f"no columns x and y among {', '.join(names)}: name them with columns=[...], or --column"
+    )
 
 
 def _known(chosen: Sequence[str], names: list[str]) -> None:

@@ -33,9 +33,14 @@ def specs(
             show_default=False,
         ),
     ] = None,
-    figure: Annotated[
+    out: Annotated[
         Path | None,
-        typer.Option(help="Draw the workspace to this file: png, pdf or svg.", show_default=False),
+        typer.Option(
+            "--out",
+            "-o",
+            help="Draw the workspace to this file: png, pdf or svg.",
+            show_default=False,
+        ),
     ] = None,
     as_json: output.AsJson = False,
 ) -> None:
@@ -51,14 +56,14 @@ def specs(
 
     * `ebac demo joystick`, then `ebac specs --scenario joystick.toml`: that of the configuration of a run
 
-    * `ebac specs --device joystick-3 --figure workspace.png`: three axes, and a figure of the workspace
+    * `ebac specs --device joystick-3 --out workspace.png`: three axes, and a figure of the workspace
     """
     from ebac.specs import spec_sheet
 
     with output.refusing():
         name, chosen, source = _chosen(device, scenario)
         sheet = spec_sheet(chosen)
-        drawn = _draw(chosen, figure)
+        drawn = _draw(chosen, out)
     if as_json:
         rows = [spec.row() for spec in sheet]
         typer.echo(output.document("specs", rows, device=name, written=drawn))
@@ -127,14 +132,14 @@ def _show(sheet: list[Spec]) -> None:
     output.show(grid)
 
 
-def _draw(device: Device, figure: Path | None) -> list[str]:
+def _draw(device: Device, out: Path | None) -> list[str]:
     """Draw the workspace, if asked to; return the names of the files."""
-    if figure is None:
+    if out is None:
         return []
     from ebac.plot import plot_workspace, save
 
     drawn = plot_workspace(device)
-    file = files.free_file(figure)
-    with output.writing(f"--figure {file}"):
+    file = files.free_file(out)
+    with output.writing(f"--out {file}"):
         save(drawn, file)
     return [str(file)]

@@ -23,6 +23,7 @@ def inject(
     node: Annotated[
         int, typer.Option("--node", "-n", help="Node id of the simulated drive.", min=1, max=127)
     ] = 1,
+    as_json: output.AsJson = False,
 ) -> None:
     """Put a simulated drive into the named faults, and clear all others. Real drives are refused.
 
@@ -36,4 +37,7 @@ def inject(
 
     with opened(where) as bus:
         put(bus.drive(node, timeout=where.timeout), fault or [])
-    output.say(f"Node {node}: {', '.join(fault) if fault else 'no fault is injected'}.")
+    if as_json:
+        typer.echo(output.document("drive inject", [{"node": node, "faults": fault or []}]))
+    else:
+        output.say(f"Node {node}: {', '.join(fault) if fault else 'no fault is injected'}.")

@@ -113,10 +113,15 @@ def timing(
     profile: ProfileName = "joystick",
     node: ProfileNodes = None,
     bitrate: Bitrate = None,
-    dt: Annotated[float, typer.Option(help="Sample time [s].", min=1e-4, max=1.0)] = 1e-3,
-    answer: Annotated[
+    rate: Annotated[float, typer.Option(help="Ticks per second [Hz].", min=1.0, max=1e4)] = 1000.0,
+    answer_share: Annotated[
         float | None,
-        typer.Option(help="How long the loop waits for answers [s].", show_default="0.7 of --dt"),
+        typer.Option(
+            help="Share of a tick that the loop waits for answers.",
+            show_default="0.7",
+            min=0.0,
+            max=1.0,
+        ),
     ] = None,
     ticks: Annotated[int, typer.Option(help="Samples to simulate.", min=1, max=1_000_000)] = 1000,
     errors: Annotated[
@@ -139,7 +144,7 @@ def timing(
 
     * `ebac drive timing joystick`: two drives at 1 Mbit/s
 
-    * `ebac drive timing generic-cia402 --node 1 --bitrate 500000 --answer 0.9e-3`: one drive on a slower bus
+    * `ebac drive timing generic-cia402 --node 1 --bitrate 500000 --answer-share 0.9`: one drive on a slower bus
     """
     from dataclasses import asdict
 
@@ -148,7 +153,13 @@ def timing(
     with telling():
         network = library.load(profile, nodes=node or (), bitrate=bitrate)
         found = library.bus_timing(
-            network, dt=dt, answer=answer, ticks=ticks, error_rate=errors, broken=broken, seed=seed
+            network,
+            dt=1 / rate,
+            answer_share=answer_share,
+            ticks=ticks,
+            error_rate=errors,
+            broken=broken,
+            seed=seed,
         )
     if as_json:
         typer.echo(output.document("drive timing", [asdict(found)], profile=network.name))

@@ -131,7 +131,7 @@ def repair(
     file: LogFile,
     out: Annotated[
         Path | None,
-        typer.Option("--out", help="The new log.", show_default="run.repaired.mcap"),
+        typer.Option("--out", "-o", help="The new log.", show_default="run.repaired.mcap"),
     ] = None,
     as_json: output.AsJson = False,
 ) -> None:

@@ -48,7 +48,7 @@ def read(
 
     * `ebac sensor read --host 192.168.1.1 --page`
 
-    * `ebac sensor simulate --force 3 0 0`, and in another terminal `ebac sensor read --host 127.0.0.1`
+    * `ebac sensor simulate --hand-force 3 0 0`, and in another terminal `ebac sensor read --host 127.0.0.1`
 
     * `ebac sensor read --host 127.0.0.1 --seconds 2 --rate 100 --json > force.json`
     """

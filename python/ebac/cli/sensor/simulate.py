@@ -38,7 +38,7 @@ def simulate(
             help="Port of the sensor's web page.", show_default="no page", min=0, max=65535
         ),
     ] = None,
-    force: Annotated[
+    hand_force: Annotated[
         tuple[float, float, float] | None,
         typer.Option(help="A steady force of the hand on the handle [N].", show_default=False),
     ] = None,
@@ -70,7 +70,7 @@ def simulate(
 
     **Examples**
 
-    * `ebac sensor simulate --force 3 0 0`, and in another terminal `ebac sensor read --host 127.0.0.1`
+    * `ebac sensor simulate --hand-force 3 0 0`, and in another terminal `ebac sensor read --host 127.0.0.1`
 
     * `ebac wall --out first`, then `ebac sensor simulate --scenario first/scenario.toml --rate 7000 --loss 0.01`
 
@@ -79,7 +79,7 @@ def simulate(
     from ebac.sensor import EmulatorOptions, EmulatorTrouble, SimulatedSensor
 
     with output.refusing():
-        source = _source(force, scenario, device, hand, seed)
+        source = _source(hand_force, scenario, device, hand, seed)
         built = EmulatorOptions(rate=rate, load=load)
         trouble = EmulatorTrouble(loss=loss, duplicate=duplicate, reorder=reorder)
     with output.refusing(), sensor_options.telling():
@@ -121,11 +121,12 @@ def _source(
 ) -> Scenario | tuple[float, float, float]:
     """Return what it feels: a steady force, or a hand on a device."""
     if force is not None and max(map(abs, force)) > MOST_FORCE:
+        given = " ".join(f"{one:g}" for one in force)
         raise ValueError(
-            f"--force = {' '.join(f'{one:g}' for one in force)} N: each must lie in [-{MOST_FORCE:g}, {MOST_FORCE:g}] N"
+            f"--hand-force = {given} N: each must lie in [-{MOST_FORCE:g}, {MOST_FORCE:g}] N"
         )
     if force is None:
         return simulated.plant_of(scenario, device, hand, seed)
     if scenario is not None or device is not None or hand is not None:
-        raise ValueError("--force: stands for hand and device; give it alone")
+        raise ValueError("--hand-force: stands for hand and device; give it alone")
     return force

@@ -66,11 +66,11 @@ def zwidth(
             help="Number of wall dampings.", min=2, max=1000, rich_help_panel=options.WALL
         ),
     ] = 9,
-    least: Annotated[
+    least_stiffness: Annotated[
         float,
         typer.Option(help="Least stiffness of the search [N/m].", rich_help_panel=options.WALL),
     ] = 100.0,
-    top: Annotated[
+    most_stiffness: Annotated[
         float,
         typer.Option(help="Largest stiffness of the search [N/m].", rich_help_panel=options.WALL),
     ] = 1e5,
@@ -119,7 +119,7 @@ def zwidth(
         laws = _laws(by_name.law_names(law or ["all"]), change or [])
         base = options.scenario_of(hand, device, length, seconds=3.0)
         base = base.replace(**setting.given(seed=seed))
-        _check(most_damping, least, top, epsilon)
+        _check(most_damping, least_stiffness, most_stiffness, epsilon)
         folder = to.folder("zwidth", as_json=as_json)
         interrupts.keeping(
             "nothing was written; the same command starts from the beginning, and fewer --law, --delay or --points "
@@ -128,7 +128,8 @@ def zwidth(
         with output.counting("searching", quiet=as_json) as progress:
             found = search(
                 laws, base=base, delays=delay or (0, 1, 2), dampings=np.linspace(0, most_damping, points),
-                least=least, top=top, epsilon=epsilon, hands=hands, threads=threads, progress=progress,
+                least_stiffness=least_stiffness, most_stiffness=most_stiffness,
+                epsilon=epsilon, hands=hands, threads=threads, progress=progress,
             )  # fmt: skip
     to.report(
         folder, "zwidth", _document(found), as_json=as_json,
@@ -150,20 +151,22 @@ def _laws(names: list[str], changes: list[str]) -> dict[str, str | Variant]:
     return laws
 
 
-def _check(most_damping: float, least: float, top: float, epsilon: float) -> None:
+def _check(most_damping: float, least: float, most: float, epsilon: float) -> None:
     """Refuse numbers by the names of their options."""
     if not 0 < most_damping <= DAMPING:
         raise ValueError(
             f"--most-damping = {most_damping:g} N s/m: must lie in (0, {DAMPING:g}] N s/m"
         )
-    if not 0 < top <= STIFFNESS:
-        raise ValueError(f"--top = {top:g} N/m: must lie in (0, {STIFFNESS:g}] N/m")
+    if not 0 < most <= STIFFNESS:
+        raise ValueError(f"--most-stiffness = {most:g} N/m: must lie in (0, {STIFFNESS:g}] N/m")
     if least <= 0:
-        raise ValueError(f"--least = {least:g} N/m: must lie in (0, {top:g}) N/m, below --top")
-    if not least < top:
         raise ValueError(
-            f"--top = {top:g} N/m: must lie above --least = {least:g} N/m, where the search begins; give another "
-            "--top or --least"
+            f"--least-stiffness = {least:g} N/m: must lie in (0, {most:g}) N/m, below --most-stiffness"
+        )
+    if not least < most:
+        raise ValueError(
+            f"--most-stiffness = {most:g} N/m: must lie above --least-stiffness = {least:g} N/m, where the search "
+            "begins; give another of the two"
         )
     if not 0 < epsilon <= ENERGY:
         raise ValueError(f"--epsilon = {epsilon:g} J: must lie in (0, {ENERGY:g}] J")
@@ -171,7 +174,7 @@ def _check(most_damping: float, least: float, top: float, epsilon: float) -> Non
 
 def _document(found: ZWidth) -> str:
     return output.document(
-        "zwidth", found.rows(), epsilon_J=found.epsilon, hands=found.hands, top_N_per_m=found.top,
+        "zwidth", found.rows(), epsilon_J=found.epsilon, hands=found.hands, most_stiffness_N_per_m=found.most_stiffness,
         scores=found.scores(), vibration=found.vibrations(),
     )  # fmt: skip
 
@@ -206,7 +209,7 @@ def _show(found: ZWidth) -> None:
         ],
         numbers=range(2, 4 + len(CRITERIA)),
     )
-    full, most = found.top / 1e3, found.dampings[-1]
+    full, most = found.most_stiffness / 1e3, found.dampings[-1]
     words: set[str] = set()
     for number, delay in enumerate(found.delays):
         if number:
@@ -225,7 +228,7 @@ def _show(found: ZWidth) -> None:
                     row["law"],
                     *cells,
                     share,
-                    _stiffest(stiffest, found.top),
+                    _stiffest(stiffest, found.most_stiffness),
                     _ended(ends),
                 )
                 words |= set(ends)
@@ -270,7 +273,7 @@ def _explained(words: set[str], full: float) -> str:
     meanings = {
         VIBRATION: "the force is not quiet, as where the guard holds it back",
         TOO_SOFT: "a stiffer wall shows less than half of its stiffness at rest",
-        AT_TOP: f"the search ends at {full:g} kN/m before any wall is lost (--top)",
+        AT_TOP: f"the search ends at {full:g} kN/m before any wall is lost (--most-stiffness)",
     }
     return "".join(f"; {word}: {meanings[word]}" for word in meanings if word in words)
 

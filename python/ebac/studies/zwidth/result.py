@@ -44,8 +44,8 @@ class ZWidth:
         Samples.
     dampings : array, shape (m,)
         Wall damping B [N s/m].
-    least, top : float
-        Ends of the search [N/m]: a limit of `top` means "at least"; below `least` it is 0.
+    least_stiffness, most_stiffness : float
+        Ends of the search [N/m]: a limit of `most_stiffness` means "at least"; below `least_stiffness` it is 0.
     epsilon : float
         Energy that a hand may draw [J].
     hands : int
@@ -64,8 +64,8 @@ class ZWidth:
     laws: tuple[str, ...]
     delays: tuple[int, ...]
     dampings: Values
-    least: float
-    top: float
+    least_stiffness: float
+    most_stiffness: float
     epsilon: float
     hands: int
     limits: dict[str, Values]
@@ -81,7 +81,7 @@ class ZWidth:
         return plural(self.hands * len(families(PULL)), "random hand") if self.hands else ""
 
     def area(self, criterion: str, law: str, delay: int) -> float:
-        """Return the score: the area under the border, both axes linear, stiffness up to `top` [N/m N s/m].
+        """Return the score: the area under the border, both axes linear, stiffness up to `most_stiffness` [N/m N s/m].
 
         Parameters
         ----------
@@ -96,15 +96,15 @@ class ZWidth:
             if criterion == "spectral"
             else self.limits[criterion][self.laws.index(law), d]
         )
-        return float(np.trapezoid(np.minimum(border, self.top), self.dampings))
+        return float(np.trapezoid(np.minimum(border, self.most_stiffness), self.dampings))
 
     def share(self, law: str, delay: int) -> float:
-        """Return the part of all walls up to `top` that is usable, 0 to 1; of one damping, the part of its walls."""
+        """Return the usable part of all walls up to `most_stiffness`, 0 to 1; of one damping, that of its walls."""
         width = float(self.dampings[-1] - self.dampings[0])
         if width == 0:
             limit = self.limits["usable"][self.laws.index(law), self.delays.index(delay), 0]
-            return float(limit) / self.top
-        return self.area("usable", law, delay) / (self.top * width)
+            return float(limit) / self.most_stiffness
+        return self.area("usable", law, delay) / (self.most_stiffness * width)
 
     def ended_by(self, law: str, delay: int) -> list[str]:
         """Return what the walls above the usable border are lost by, for each wall damping.
@@ -117,7 +117,7 @@ class ZWidth:
 
         def of(j: int) -> str:
             usable = limits["usable"][j]
-            if usable >= self.top:
+            if usable >= self.most_stiffness:
                 return AT_TOP
             met = (word for name, word in ENDS.items() if limits[name][j] <= usable * (1 + 1e-9))
             return next(met, TOO_SOFT)

@@ -43,8 +43,8 @@ def zwidth(
     base: Scenario | None = None,
     delays: Sequence[int] = (0, 1, 2),
     dampings: Sequence[float] | Values = DAMPINGS,
-    least: float = 100.0,
-    top: float = 1e5,
+    least_stiffness: float = 100.0,
+    most_stiffness: float = 1e5,
     rungs: int = 31,
     epsilon: float = 1e-3,
     hands: int = 0,
@@ -55,8 +55,8 @@ def zwidth(
     """Search for every law, delay and wall damping the largest stiffness up to which a criterion holds.
 
     A law must pass with a hand that presses from the surface and with one that taps through 20 mm of free air, at every
-    rung of a ladder of stiffness, even in log K, from `least` up; between the last rung that passes and the first that
-    fails, bisection.
+    rung of a ladder of stiffness, even in log K, from `least_stiffness` up; between the last rung that passes and the
+    first that fails, bisection.
 
     Parameters
     ----------
@@ -68,8 +68,8 @@ def zwidth(
         Samples of delay, [0, 8].
     dampings : array-like
         Wall damping B, rising [N s/m].
-    least, top : float
-        Ends of the ladder [N/m].
+    least_stiffness, most_stiffness : float
+        Ends of the ladder [N/m], up to 1e7.
     rungs : int
         Of the ladder, at least 2.
     epsilon : float
@@ -92,12 +92,12 @@ def zwidth(
     """
     scenario = Scenario(seconds=3.0) if base is None else base
     require(scenario, Scenario, "ebac.zwidth", "a Scenario as its base")
-    _check(scenario, dampings, least, top, rungs, epsilon, hands)
+    _check(scenario, dampings, least_stiffness, most_stiffness, rungs, epsilon, hands)
     search = _Search(scenario, epsilon, hands, {"threads": threads, "executor": executor})
     named = name_laws(list(LAWS.values()) if laws is None else laws)
     timings = [scenario.timing.replace(delay=delay) for delay in delays]
     points = [(timing, float(damping)) for timing in timings for damping in dampings]
-    ladder = np.geomspace(least, top, rungs)
+    ladder = np.geomspace(least_stiffness, most_stiffness, rungs)
     shown = len(timings) * len(STIFFNESSES) * SEEDS * len(APPROACHES)
     total = len(named) * (len(points) * (rungs + ROUNDS * len(CRITERIA)) * search.runs + shown)
     search.report = _counter(progress, total)
@@ -105,7 +105,7 @@ def zwidth(
     borders = [search.border(law, points, ladder) for law in named.values()]
     return ZWidth(
         base=scenario, laws=tuple(named), delays=tuple(delays), dampings=np.asarray(dampings, float),
-        least=least, top=top, epsilon=epsilon, hands=hands,
+        least_stiffness=least_stiffness, most_stiffness=most_stiffness, epsilon=epsilon, hands=hands,
         limits={name: np.array([b[i] for b in borders]).reshape(shape) for i, name in enumerate(CRITERIA)},
         spectral=np.array([_spectral(scenario, *point) for point in points]).reshape(shape[1:]),
         vibration=np.array([search.vibration(law, timings) for law in named.values()]),
@@ -238,7 +238,7 @@ def _check(
     base: Scenario,
     dampings: Any,
     least: float,
-    top: float,
+    most: float,
     rungs: int,
     epsilon: float,
     hands: int,
@@ -253,9 +253,10 @@ def _check(
         raise ValueError(
             f"zwidth: dampings = {dampings} N s/m: must be at least two, rising, from 0 up"
         )
-    if not 0 < least < top <= 1e7:
+    if not 0 < least < most <= 1e7:
         raise ValueError(
-            f"zwidth: least = {least} N/m, top = {top} N/m: must be 0 < least < top <= 1e7 N/m"
+            f"zwidth: least_stiffness = {least} N/m, most_stiffness = {most} N/m: must be "
+            "0 < least_stiffness < most_stiffness <= 1e7 N/m"
         )
     if rungs < 2:
         raise ValueError(f"zwidth: rungs = {rungs}: must be at least 2")
