@@ -311,7 +311,13 @@ def reserve_of(law: CoreLaw | PythonLaw, scenario: Scenario) -> float | None:
 
 
 def law_name(law: AnyLaw) -> str:
-    """Return the name a law goes by in tables and plots."""
+    """Return the name a law goes by in tables and plots.
+
+    Parameters
+    ----------
+    law : str, type or law
+        A name, a law or a `Variant`.
+    """
     return law if isinstance(law, str) else str(getattr(law, "name", type(law).__name__))
 
 

@@ -136,6 +136,11 @@ DEVICES: dict[str, DevicePreset] = {
 def hand(name: str) -> Hand:
     """Return the hand of that name.
 
+    Parameters
+    ----------
+    name : str
+        A name of `HANDS`.
+
     Raises
     ------
     KeyError
@@ -146,6 +151,11 @@ def hand(name: str) -> Hand:
 
 def device(name: str) -> Device:
     """Return the device of that name.
+
+    Parameters
+    ----------
+    name : str
+        A name of `DEVICES`.
 
     Raises
     ------

@@ -59,5 +59,16 @@ def joystick() -> Configuration:
 
 
 def joystick_text(name: str = "joystick") -> str:
-    """Return a configuration, such as "joystick" or "joystick-3" with three axes, as TOML text with comments."""
+    """Return a configuration, such as "joystick" or "joystick-3" with three axes, as TOML text with comments.
+
+    Parameters
+    ----------
+    name : str
+        `joystick` or `joystick-3`.
+
+    Raises
+    ------
+    FileNotFoundError
+        For another name.
+    """
     return (files("ebac.datasets") / f"{name}.toml").read_text(encoding="utf-8")

@@ -109,6 +109,18 @@ def apply(
 def verify(drive: Drive, node: Node) -> Plan:
     """Read all of a profile back from a drive. Nothing is written.
 
+    Parameters
+    ----------
+    drive : Drive
+        Which.
+    node : Node
+        What is wanted.
+
+    Returns
+    -------
+    Plan
+        Without a change.
+
     Raises
     ------
     NotVerified
@@ -130,6 +142,22 @@ def restore(
     """Put back what a drive held before the first `apply` since the last `restore`.
 
     The drive is disabled first and stays disabled. The backup goes when all of it is back.
+
+    Parameters
+    ----------
+    drive : Drive
+        Which.
+    backups : Backups, optional
+        Where backups lie; default: the user's state folder.
+    store : bool
+        Whether the drive shall keep it in flash (0x1010).
+    progress : callable
+        Called after every write.
+
+    Returns
+    -------
+    Applied
+        What was changed.
 
     Raises
     ------

@@ -135,6 +135,16 @@ class Sheet:
 def read_eds(path: str | Path) -> Sheet:
     """Read an EDS or DCF file, in UTF-8, UTF-16, Windows-1252 or Latin-1, with or without a byte order mark.
 
+    Parameters
+    ----------
+    path : str or Path
+        The file.
+
+    Returns
+    -------
+    Sheet
+        Its objects and the identity of the drive.
+
     Raises
     ------
     ProfileError
@@ -170,6 +180,13 @@ def decoded(data: bytes) -> str:
 
 def parse_eds(text: str, *, name: str = "EDS") -> Sheet:
     """Read the text of a data sheet.
+
+    Parameters
+    ----------
+    text : str
+        Of an EDS or DCF file (CiA 306).
+    name : str
+        Its name in messages.
 
     Raises
     ------

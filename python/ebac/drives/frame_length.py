@@ -13,6 +13,11 @@ def frame_bits(size: int) -> int:
     47 bits frame it (11-bit identifier, interframe space included); one stuff bit may follow
     every four of the 34 + 8 n bits that are stuffed (ISO 11898-1; Davis et al. 2007, eq. 1).
 
+    Parameters
+    ----------
+    size : int
+        Data of the frame [bytes], 0 to 8.
+
     Raises
     ------
     ValueError

@@ -218,6 +218,11 @@ def find(what: str | int | tuple[int, int] | Object) -> Object:
 
     An index the table does not know becomes an unsigned number of the drive's length.
 
+    Parameters
+    ----------
+    what : str, int, tuple or Object
+        Name, as `ebac drive show --all` lists them; index; (index, sub-index); or an object, which is returned.
+
     Raises
     ------
     KeyError

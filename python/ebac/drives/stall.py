@@ -32,12 +32,28 @@ def watches(profile: Profile) -> dict[str, float]:
 
 
 def hold_time(profile: Profile) -> float:
-    """Return for how long a drive holds its torque at worst once the loop has stalled [s]; infinite without a watch."""
+    """Return for how long a drive holds its torque at worst once the loop has stalled [s]; infinite without a watch.
+
+    Parameters
+    ----------
+    profile : Profile
+        What the drive is set to.
+
+    Returns
+    -------
+    float
+        Time [s].
+    """
     return min(watches(profile).values(), default=inf)
 
 
 def check_stall(network: Network) -> None:
     """Refuse drives that would hold a torque without their loop, or limit none, or watch different loops.
+
+    Parameters
+    ----------
+    network : Network
+        The drives of a bus.
 
     Raises
     ------

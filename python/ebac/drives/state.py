@@ -168,6 +168,16 @@ def path(start: State, goal: State) -> tuple[Command, ...]:
 
     A state the drive leaves by itself counts as the one that follows it: wait for that first.
 
+    Parameters
+    ----------
+    start, goal : State
+        Where the drive is, and where it is to be.
+
+    Returns
+    -------
+    tuple of Command
+        In their order; empty where the drive is there.
+
     Raises
     ------
     ValueError

@@ -213,7 +213,20 @@ def _row(
 
 
 def run_case(index: int, *, seed: int = 1) -> FaultCase:
-    """Run one case of a campaign again and keep its rows."""
+    """Run one case of a campaign again and keep its rows.
+
+    Parameters
+    ----------
+    index : int
+        Of the case in a campaign, from 0 up.
+    seed : int
+        That of the campaign.
+
+    Raises
+    ------
+    ValueError
+        For an index below 0.
+    """
     if index < 0:
         raise ValueError(f"index = {index}: must be at least 0")
     rows, at, ticks, axis, verdict, breach = _core._fault_case(seed, index)

@@ -17,6 +17,11 @@ PAUSE = 10.0
 def configuration(part: str) -> Configuration:
     """Return a configuration that comes with `ebac`: "master", "feed" or "bend". `ebac demo` writes them.
 
+    Parameters
+    ----------
+    part : str
+        `master`, `feed` or `bend`.
+
     Raises
     ------
     KeyError

@@ -33,6 +33,18 @@ class Camera(NamedTuple):
 def camera(bend_x: float, bend_y: float, scope: Scope | None = None) -> Camera:
     """Return where the camera is for a bend to the right and down [rad]: an arc of constant curvature.
 
+    Parameters
+    ----------
+    bend_x, bend_y : float
+        Bend to the right and down [rad].
+    scope : Scope, optional
+        Its bending section and tip; default: `Scope()`.
+
+    Returns
+    -------
+    Camera
+        Its place [m], its axes, and how the place changes.
+
     References
     ----------
     R. J. Webster and B. A. Jones, Int. J. Robotics Research 29 (2010) 1661-1683.

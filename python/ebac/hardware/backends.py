@@ -187,7 +187,18 @@ def simulated(
 
 
 def virtual_can(root: Path = Path("/sys/class/net")) -> str | None:
-    """Return the first virtual CAN interface that is up."""
+    """Return the first virtual CAN interface that is up.
+
+    Parameters
+    ----------
+    root : Path
+        Where the system lists its network interfaces.
+
+    Returns
+    -------
+    str or None
+        Name, as `vcan0`; None where there is none.
+    """
     for folder in sorted(root.glob("*")):
         try:
             kind = (folder / "type").read_text().strip()

@@ -14,6 +14,19 @@ def designed(
 ) -> CoreLaw:
     """Return a law of the core, designed for a device. Without a force sensor the gains of its force loop are 0.
 
+    Parameters
+    ----------
+    law : str, type or law
+        As `ebac.design` takes it.
+    changes : mapping of str to float
+        Parameters that are not as designed [SI units].
+    device : Device
+        What it is designed for.
+    timing : Timing
+        Sample time and delay it is designed for.
+    sensor : bool
+        Whether the device has a force sensor.
+
     Raises
     ------
     TypeError

@@ -154,6 +154,11 @@ class Times:
 def times(trace: Trace) -> Times:
     """Measure the ticks of a run in real time.
 
+    Parameters
+    ----------
+    trace : Trace
+        Of a run on drives or of simulated ones in real time.
+
     Raises
     ------
     ValueError
@@ -182,7 +187,18 @@ def times(trace: Trace) -> Times:
 
 
 def under_the_law(trace: Trace) -> Trace:
-    """Return the rows in which the law acted; their time begins at its first tick."""
+    """Return the rows in which the law acted; their time begins at its first tick.
+
+    Parameters
+    ----------
+    trace : Trace
+        Of a run.
+
+    Returns
+    -------
+    Trace
+        Without a row where the law never acted.
+    """
     rows = np.flatnonzero(trace["state"] == int(LoopState.RUN))
     if not len(rows):
         return trace.rows(0, 0)

@@ -42,6 +42,16 @@ def allowed_deviation(scenario: Scenario) -> float:
     Friction of up to f_c holds a hand and an *ideal* wall anywhere within f_c / (K0 + K) of their balance, so a rest
     within that band is no fault of a law. f_c is the friction at standstill; K counts only where the ideal rest
     lies inside the wall. Friction is in the joints: on a lever that leans it holds a little more than f_c.
+
+    Parameters
+    ----------
+    scenario : Scenario
+        Hand, wall or world, and device.
+
+    Returns
+    -------
+    float
+        Distance [m], at least two counts.
     """
     scenario = without_engine(scenario)
     mechanics, wall = scenario.device.mechanics, scenario.environment
@@ -75,6 +85,21 @@ def ideal_rest(scenario: Scenario) -> float | None:
     another axis does not come to rest, or where the weight tips the lever over.
     In a `worlds.World` it is where a slow hand comes to rest; None with friction, motion or puncture. Behind a
     `worlds.Bridge` it is that of the world the engine computes; None for a function.
+
+    Parameters
+    ----------
+    scenario : Scenario
+        Hand, wall or world, and device.
+
+    Returns
+    -------
+    float or None
+        Position on the first axis [m].
+
+    Raises
+    ------
+    TypeError
+        When it is no scenario.
     """
     require(scenario, Scenario, "ebac.ideal_rest", "a Scenario")
     world = foreign(scenario.environment)

@@ -72,6 +72,11 @@ class WorldContact:
 def world_contact(trace: Trace) -> WorldContact:
     """Measure a run in a `worlds.World` on a device with straight axes.
 
+    Parameters
+    ----------
+    trace : Trace
+        Of one run.
+
     Raises
     ------
     ValueError

@@ -26,6 +26,11 @@ ITEMS: dict[str, Callable[[], Finding]] = {check.__name__: check for check in _C
 def find(name: str) -> Finding:
     """Check one item of the paper.
 
+    Parameters
+    ----------
+    name : str
+        A name of `ITEMS`.
+
     Raises
     ------
     KeyError

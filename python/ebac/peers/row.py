@@ -94,6 +94,11 @@ class Plant:
 def program(name: str) -> Any:
     """Return a module of an optional program.
 
+    Parameters
+    ----------
+    name : str
+        Of the module, with dots.
+
     Raises
     ------
     ImportError

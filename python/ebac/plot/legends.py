@@ -25,7 +25,15 @@ _OPTIONS = "ebac_options"
 
 
 def legend(ax: Axes, columns: int = 4) -> None:
-    """Put the legend above the axes; nothing where nothing has a label."""
+    """Put the legend above the axes; nothing where nothing has a label.
+
+    Parameters
+    ----------
+    ax : Axes
+        Which.
+    columns : int
+        Of the legend.
+    """
     if ax.get_legend_handles_labels()[0]:
         _make(ax, {**_ABOVE_AXES, "ncols": columns, "frameon": False, "fontsize": LETTERS})
 
@@ -33,7 +41,19 @@ def legend(ax: Axes, columns: int = 4) -> None:
 def figure_legend(
     figure: Figure, handles: Sequence[Artist], labels: Sequence[str], columns: int | None = None
 ) -> None:
-    """Put one legend for all panels below the figure, whose title stands above."""
+    """Put one legend for all panels below the figure, whose title stands above.
+
+    Parameters
+    ----------
+    figure : Figure
+        Which.
+    handles : sequence of Artist
+        What is explained.
+    labels : sequence of str
+        In the same order.
+    columns : int, optional
+        Default: as many as labels.
+    """
     options = {"handles": list(handles), "labels": list(labels), "loc": "outside lower center"}
     _make(
         figure, {**options, "ncols": columns or len(labels), "frameon": False, "fontsize": LETTERS}

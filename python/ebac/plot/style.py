@@ -95,7 +95,13 @@ class Picture(Figure):
 
 
 def new_figure(width: float, height: float) -> Picture:
-    """Return an empty figure, size in inches, that lays itself out."""
+    """Return an empty figure, size in inches, that lays itself out.
+
+    Parameters
+    ----------
+    width, height : float
+        Size [in].
+    """
     return Picture(figsize=(width, height), layout="constrained", dpi=DPI)
 
 
@@ -104,7 +110,18 @@ def _own_colour(law: str) -> str | None:
 
 
 def colour(law: str) -> str:
-    """Return the colour of a law; a tuned one has that of its design."""
+    """Return the colour of a law; a tuned one has that of its design.
+
+    Parameters
+    ----------
+    law : str
+        Its name.
+
+    Returns
+    -------
+    str
+        As matplotlib takes it.
+    """
     return _own_colour(law) or OTHER_LAWS[0]
 
 
@@ -115,7 +132,15 @@ def colours(laws: Iterable[str]) -> dict[str, str]:
 
 
 def dress(ax: Axes, ylabel: str) -> None:
-    """Give an axes its label, grid and light frame."""
+    """Give an axes its label, grid and light frame.
+
+    Parameters
+    ----------
+    ax : Axes
+        Which.
+    ylabel : str
+        What its vertical axis shows, with the unit.
+    """
     ax.set_ylabel(ylabel)
     ax.grid(color="0.9", lw=0.8)
     ax.set_axisbelow(True)
@@ -124,7 +149,17 @@ def dress(ax: Axes, ylabel: str) -> None:
 
 
 def line(ax: Axes, t: Values, y: Values, **style: Any) -> None:
-    """Draw a line, thinned to its extremes where it has very many points."""
+    """Draw a line, thinned to its extremes where it has very many points.
+
+    Parameters
+    ----------
+    ax : Axes
+        Which.
+    t, y : array, shape (n,)
+        Points of the line.
+    **style
+        As `Axes.plot` takes it.
+    """
     keep = _extremes(y)
     ax.plot(t[keep], y[keep], **style)
 

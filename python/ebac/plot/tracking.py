@@ -24,7 +24,13 @@ SHOWN = 0.15
 
 
 def plot_tracking(tracking: Tracking) -> Picture:
-    """Draw a path with its fit as in Fig. 8 and 9, its deviation exaggerated, and its deviations as a histogram."""
+    """Draw a path with its fit as in Fig. 8 and 9, its deviation exaggerated, and its deviations as a histogram.
+
+    Parameters
+    ----------
+    tracking : Tracking
+        What `ebac.tracking.evaluate` returned.
+    """
     return _draw_tracking(tracking, narrow=False)
 
 
@@ -136,7 +142,13 @@ def _histogram(ax: Axes, fit: LineFit | CircleFit) -> None:
 
 
 def plot_budget(budget: Budget) -> Picture:
-    """Draw the standard deviation of each source beside the paper's, for the line and the circle."""
+    """Draw the standard deviation of each source beside the paper's, for the line and the circle.
+
+    Parameters
+    ----------
+    budget : Budget
+        What `ebac.tracking.error_budget` returned.
+    """
     return _draw_budget(budget, narrow=False)
 
 

@@ -271,6 +271,11 @@ def conditions(names: Iterable[str | Condition]) -> list[Condition]:
     of the wall to 15 kN/m and leaves delay, device and the wall's damping as they are. A condition has the name by
     which it was first asked for: d2K20, though the group `cells` calls it d2b2K20.
 
+    Parameters
+    ----------
+    names : str, Condition, or several
+        Names of `CONDITIONS` or `GROUPS`, or conditions.
+
     Raises
     ------
     ValueError

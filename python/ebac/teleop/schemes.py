@@ -95,7 +95,18 @@ SCHEMES: Mapping[str, Scheme] = {
 
 
 def scheme(name: str) -> Scheme:
-    """Return a scheme by its name; KeyError names the nearest."""
+    """Return a scheme by its name.
+
+    Parameters
+    ----------
+    name : str
+        A name of `SCHEMES`.
+
+    Raises
+    ------
+    KeyError
+        For an unknown name; the message names the nearest.
+    """
     if name not in SCHEMES:
         raise unknown_name("scheme", name, SCHEMES)
     return SCHEMES[name]
