@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from importlib.util import find_spec
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -11,14 +13,22 @@ from typer.testing import CliRunner
 from ebac.cli import app
 from ebac.worlds import Mesh, Sphere, World
 
-trimesh = pytest.importorskip("trimesh")
-pytest.importorskip("igl")
+pytestmark = pytest.mark.skipif(
+    not (find_spec("trimesh") and find_spec("igl")), reason="needs trimesh and libigl"
+)
 
 
 @pytest.fixture(autouse=True)
 def here(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     monkeypatch.setenv("EBAC_CACHE", str(tmp_path / "cache"))
     monkeypatch.chdir(tmp_path)
+
+
+def box() -> Any:
+    """A box of 40 mm, in millimetres."""
+    from trimesh.creation import box
+
+    return box((40, 40, 40))
 
 
 def test_triangles_without_any_area_are_refused() -> None:
@@ -28,22 +38,22 @@ def test_triangles_without_any_area_are_refused() -> None:
 
 
 def test_cells_too_fine_are_refused_at_once() -> None:
-    trimesh.creation.box((40, 40, 40)).export("box.stl")
+    box().export("box.stl")
     with pytest.raises(ValueError, match=r"Mesh.cell = 1e-05 m: .* bricks .* give a larger cell"):
         World(Mesh("box.stl", scale=1e-3, cell=1e-5))
 
 
 def test_cells_too_coarse_are_refused() -> None:
-    trimesh.creation.box((40, 40, 40)).export("box.stl")
+    box().export("box.stl")
     with pytest.raises(ValueError, match=r"cell = 0.05 m: .* 0.01 m at most"):
         World(Mesh("box.stl", scale=1e-3, cell=0.05))
 
 
 def test_a_mesh_turned_inside_out_is_met_as_any_other() -> None:
-    box = trimesh.creation.box((40, 40, 40))
-    box.export("box.stl")
-    box.invert()
-    box.export("inverted.stl")
+    one = box()
+    one.export("box.stl")
+    one.invert()
+    one.export("inverted.stl")
     way = np.linspace([-0.02, 0.001, 0.002], [-0.022, 0.001, 0.002], 21)  # from the surface out
     for file in ("box.stl", "inverted.stl"):
         last = World(Mesh(file, scale=1e-3, cell=0.001)).walk(way)[-1]
@@ -70,7 +80,9 @@ def test_a_place_that_is_no_number_is_no_contact_and_is_forgotten(wrong: float) 
 def test_a_mesh_in_millimetres_is_warned_about_with_the_remedy(
     recwarn: pytest.WarningsRecorder,
 ) -> None:
-    trimesh.creation.icosphere(radius=20).export("ball.stl")  # 40 mm, read as metres
+    from trimesh.creation import icosphere
+
+    icosphere(radius=20).export("ball.stl")  # 40 mm, read as metres
     with pytest.warns(
         UserWarning, match=r"ball\.stl: its longest side is 40 m; .*scale=0\.001"
     ) as told:

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 import ebac
 
-integrate = pytest.importorskip("scipy.integrate")
+pytest.importorskip("scipy")
 
 
 def power(trace: ebac.Trace, device: ebac.Device) -> NDArray[np.float64]:
@@ -27,10 +27,12 @@ def power(trace: ebac.Trace, device: ebac.Device) -> NDArray[np.float64]:
 def test_true_energy_is_the_integral_of_the_power_of_a_finely_sampled_run(
     law: str, friction: float
 ) -> None:
+    from scipy.integrate import cumulative_simpson
+
     device = ebac.Device(mechanics=ebac.Mechanics(coulomb=friction))
     scenario = ebac.Scenario(device=device, timing=ebac.Timing(dt=1e-5), seconds=0.3)
     trace = ebac.simulate(scenario, law)
-    expected = np.concatenate([[0.0], integrate.cumulative_simpson(power(trace, device), dx=1e-5)])
+    expected = np.concatenate([[0.0], cumulative_simpson(power(trace, device), dx=1e-5)])
     reached = trace["true.energy"]
     assert np.ptp(reached) > 0.01
     assert np.abs(reached - expected).max() < 1e-6
@@ -41,6 +43,8 @@ def test_true_energy_is_the_integral_of_the_power_of_a_finely_sampled_run(
 def test_true_energy_is_the_integral_of_the_power_inside_a_tick(
     plant: Any, friction: float
 ) -> None:
+    from scipy.integrate import simpson
+
     device = ebac.Device(mechanics=ebac.Mechanics(coulomb=friction))
     alone = plant(device=device, hand=ebac.Hand(), tick=1e-3)
     parts, energy = 64, 0.0
@@ -51,7 +55,7 @@ def test_true_energy_is_the_integral_of_the_power_inside_a_tick(
             alone.advance([current], (k + i / parts) * 1e-3, 1 / parts)
             samples.append(alone.truth().as_dict())
         v, f = (np.array([s[name] for s in samples]) for name in ("v", "f_motor"))
-        energy += integrate.simpson(f * v + 2.0 * v**2 + friction * np.abs(v), dx=1e-3 / parts)
+        energy += simpson(f * v + 2.0 * v**2 + friction * np.abs(v), dx=1e-3 / parts)
         assert alone.truth().energy == pytest.approx(energy, abs=1e-7)
     assert abs(energy) > 1e-3
 

@@ -11,9 +11,6 @@ from ebac.identify import Recording
 from ebac.identify.cases import draw
 from ebac.identify.parameters import HAND
 
-signal = pytest.importorskip("scipy.signal", reason="makes the filter")
-LOW_PASS = signal.butter(2, 30, fs=1000)
-
 
 def log(number: int) -> tuple[Recording, identify.Target, dict[str, float]]:
     case = draw(number, 41, 6.0)
@@ -24,9 +21,11 @@ def log(number: int) -> tuple[Recording, identify.Target, dict[str, float]]:
 @pytest.mark.slow
 @pytest.mark.parametrize("number", [23, 26])
 def test_a_position_behind_a_filter_gets_a_remark(number: int) -> None:
+    signal = pytest.importorskip("scipy.signal", reason="makes the filter")
     recording, target, truth = log(number)
-    start = signal.lfilter_zi(*LOW_PASS) * recording.x[0]
-    x = np.asarray(signal.lfilter(*LOW_PASS, recording.x, zi=start)[0])
+    low_pass = signal.butter(2, 30, fs=1000)
+    start = signal.lfilter_zi(*low_pass) * recording.x[0]
+    x = np.asarray(signal.lfilter(*low_pass, recording.x, zi=start)[0])
     result = identify.fit_arm(replace(recording, x=x, count=0.0), target)
     off = [abs(result[name].value / truth[name] - 1) for name in HAND if result[name].determined]
     assert max(off) > 0.4, "it is wrong"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from importlib.util import find_spec
 from pathlib import Path
 
 import numpy as np
@@ -11,8 +12,9 @@ import ebac
 from ebac.metrics import world_contact
 from ebac.worlds import Body, Elastic, HeightField, Mesh, Placed, World, distance, preset
 
-trimesh = pytest.importorskip("trimesh")
-pytest.importorskip("igl")
+pytestmark = pytest.mark.skipif(
+    not (find_spec("trimesh") and find_spec("igl")), reason="needs trimesh and libigl"
+)
 
 
 @pytest.fixture(autouse=True)
@@ -23,16 +25,20 @@ def _own_cache(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
 @pytest.fixture
 def ball(tmp_path: Path) -> Path:
     """A ball of 20 mm radius, in millimetres, 1280 triangles."""
+    from trimesh.creation import icosphere
+
     file = tmp_path / "ball.stl"
-    trimesh.creation.icosphere(subdivisions=3, radius=20).export(file)
+    icosphere(subdivisions=3, radius=20).export(file)
     return file
 
 
 @pytest.fixture
 def cube(tmp_path: Path) -> Path:
     """A cube of 40 mm, in metres."""
+    from trimesh.creation import box
+
     file = tmp_path / "cube.ply"
-    trimesh.creation.box((0.04, 0.04, 0.04)).export(file)
+    box((0.04, 0.04, 0.04)).export(file)
     return file
 
 
@@ -142,10 +148,12 @@ def test_hills_are_where_the_heights_say() -> None:
 
 @pytest.mark.slow
 def test_more_triangles_make_the_same_grid(tmp_path: Path) -> None:
+    from trimesh.creation import icosphere
+
     fine = tmp_path / "fine.ply"
-    trimesh.creation.icosphere(subdivisions=5, radius=0.02).export(fine)
+    icosphere(subdivisions=5, radius=0.02).export(fine)
     coarse = tmp_path / "coarse.ply"
-    trimesh.creation.icosphere(subdivisions=4, radius=0.02).export(coarse)
+    icosphere(subdivisions=4, radius=0.02).export(coarse)
     points = np.random.default_rng(1).normal(size=(500, 3))
     points *= 0.02 / np.linalg.norm(points, axis=1, keepdims=True)
     one, other = (distance(Mesh(str(file), cell=1e-3), points)[0] for file in (fine, coarse))

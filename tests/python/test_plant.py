@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 import ebac
 
-integrate = pytest.importorskip("scipy.integrate")
+pytest.importorskip("scipy")
 
 TOLERANCES = {"rtol": 1e-10, "atol": 1e-10}
 MICROMETRE, MILLINEWTON, MICROJOULE = 1e-6, 1e-3, 1e-6
@@ -78,6 +78,8 @@ class Reference:
         self.target = start + slope * time
         friction = self.device.mechanics.coulomb
 
+        from scipy.integrate import solve_ivp
+
         def target(s: float) -> float:
             return start + slope * s
 
@@ -104,9 +106,7 @@ class Reference:
             if friction > 0:
                 event = breaks_away if self.sliding == 0 else stops
                 stops.direction = -self.sliding  # type: ignore[attr-defined]
-            run = integrate.solve_ivp(
-                right, (s, time), self.state, "DOP853", events=event, **TOLERANCES
-            )
+            run = solve_ivp(right, (s, time), self.state, "DOP853", events=event, **TOLERANCES)
             assert run.success
             self.state, s = run.y[:, -1].tolist(), float(run.t[-1])
             if run.status == 1 and self.sliding == 0:

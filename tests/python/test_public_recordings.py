@@ -4,6 +4,7 @@ import hashlib
 import io
 import json
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -13,9 +14,9 @@ from ebac import identify
 from ebac.cli import app
 from ebac.identify.signals import by_place
 
-scipy_io = pytest.importorskip("scipy.io", reason="the twins need SciPy")
-from public_recordings import ARMS, DEVICE, FILES, VALIDATION, fetched, main  # noqa: E402
-from public_twins import GTAU, HAND, PUBLISHED, ROBOT, axis, trials  # noqa: E402
+pytest.importorskip("scipy", reason="the twins need SciPy")
+from public_recordings import ARMS, DEVICE, FILES, VALIDATION, fetched, main
+from public_twins import GTAU, HAND, PUBLISHED, ROBOT, axis, trials
 
 #: What `fit_device` calls the published parameters: a weight moves towards +x, an offset resists.
 TRUE = {
@@ -28,17 +29,23 @@ AXIS = ["--column", "x=qm", "--column", "motor=vir", "--unit", "motor=V"]
 READ = {"columns": {"x": "qm", "motor": "vir"}, "units": {"motor": "V"}, "flip_motor": True}
 
 
+def saved(path: Path, variables: dict[str, Any]) -> None:
+    from scipy.io import savemat
+
+    savemat(path, variables)
+
+
 @pytest.fixture(scope="module")
 def axis_log(tmp_path_factory: pytest.TempPathFactory) -> Path:
     path = tmp_path_factory.mktemp("axis") / DEVICE
-    scipy_io.savemat(path, axis(seed=2))
+    saved(path, axis(seed=2))
     return path
 
 
 @pytest.fixture(scope="module")
 def arm_log(tmp_path_factory: pytest.TempPathFactory) -> Path:
     path = tmp_path_factory.mktemp("arm") / "symbol_data.mat"
-    scipy_io.savemat(path, trials())
+    saved(path, trials())
     return path
 
 
@@ -66,7 +73,7 @@ def test_intervals_of_twins_hold_the_truth_without_bias(tmp_path: Path) -> None:
     """Damping and friction were 0.9 % off, outside of most intervals."""
     errors, held = [], []
     for seed in range(1, 7):
-        scipy_io.savemat(tmp_path / DEVICE, axis(seconds=12.5, seed=seed))
+        saved(tmp_path / DEVICE, axis(seconds=12.5, seed=seed))
         found = identify.fit_device(identify.load(tmp_path / DEVICE, force_constant=GTAU, **READ))
         assert found.undetermined == ()
         assert found.stribeck_speed is None
@@ -79,7 +86,7 @@ def test_intervals_of_twins_hold_the_truth_without_bias(tmp_path: Path) -> None:
 
 def test_a_stop_shorter_than_the_kernel_is_no_sliding(tmp_path: Path) -> None:
     """Between two moves the axis stands for 6 ms; taken for sliding, its friction was 0.3 % off, 0.1 % surely."""
-    scipy_io.savemat(tmp_path / DEVICE, axis(seconds=12.5, screw=0.0, shakes=0.0))
+    saved(tmp_path / DEVICE, axis(seconds=12.5, screw=0.0, shakes=0.0))
     recording = identify.load(tmp_path / DEVICE, force_constant=GTAU, current_lag=0.0, **READ)
     found = identify.fit_device(recording).estimates
     for name, true in TRUE.items():
@@ -94,7 +101,7 @@ def test_friction_that_varies_along_the_way_is_neither_drift_nor_damping(
 
     Without drift, that of seed 2 was a friction that falls up to the fastest motion, over a damping of 470 N s/m.
     """
-    scipy_io.savemat(tmp_path / DEVICE, axis(along=1.5, seed=seed))
+    saved(tmp_path / DEVICE, axis(along=1.5, seed=seed))
     found = identify.fit_device(identify.load(tmp_path / DEVICE, force_constant=GTAU, **READ))
     assert found.undetermined == ()
     assert found.stribeck_speed is None
@@ -188,7 +195,7 @@ def test_a_hand_that_leads_a_robot_which_only_follows_is_not_determined(
 
 @pytest.mark.slow
 def test_a_hand_whose_robot_pushes_back_is_determined(tmp_path: Path) -> None:
-    scipy_io.savemat(tmp_path / ARMS, trials(pushed=True))
+    saved(tmp_path / ARMS, trials(pushed=True))
     recording = identify.load(tmp_path / ARMS, columns=of_trial(2, 0), rate=1000)
     assert recording.target is not None
     result = identify.fit_arm(recording, identify.Target.following(recording.target))

@@ -23,8 +23,6 @@ from time import process_time
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.io import loadmat
-from scipy.signal import butter, decimate, filtfilt
 
 from ebac import identify
 
@@ -82,6 +80,9 @@ def share_explained(path: Path, values: dict[str, float]) -> tuple[float, float]
 
     A Butterworth filter of 100 Hz both ways, central differences, one row in ten: no line of the product.
     """
+    from scipy.io import loadmat
+    from scipy.signal import butter, decimate, filtfilt
+
     log = {name: np.ravel(v).astype(float) for name, v in loadmat(path).items() if name[0] != "_"}
     q = filtfilt(*butter(4, 0.2), log["qm"])
     v = np.gradient(q, 1e-3)
@@ -99,6 +100,8 @@ def share_explained(path: Path, values: dict[str, float]) -> tuple[float, float]
 
 def fitted(path: Path) -> tuple[identify.Recording, identify.DeviceResult]:
     """Return a recording of the axis, and the device of it."""
+    from scipy.io import loadmat
+
     recording = identify.load(
         path,
         columns={"x": "qm", "motor": "vir"},
@@ -153,6 +156,8 @@ def arms(path: Path) -> bool:
     Nothing but the hand moves the robot, so the log holds nothing about the hand: all multiples of hand and robot
     would have moved alike.
     """
+    from scipy.io import loadmat
+
     right = True
     for trial in range(1, np.size(loadmat(path)["symbol_data"]) + 1):
         for number, letter in enumerate("xy"):

@@ -11,7 +11,6 @@ from math import copysign, pi, sin
 import numpy as np
 from numpy.typing import NDArray
 from recorded_arm import FINE, _motor, _moved, _reaches
-from scipy.signal import lfilter
 
 Values = NDArray[np.float64]
 
@@ -50,6 +49,8 @@ def axis(
     seed: int = 1,
 ) -> dict[str, Values]:
     """Return the variables of DATA_EMPS.mat, of a simulated axis and three forces its model does not have [N]."""
+    from scipy.signal import lfilter
+
     draw = np.random.default_rng(seed)
     mass, viscous, coulomb, offset = PUBLISHED.values()
     wanted = reference(seconds)

@@ -13,8 +13,6 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.interpolate import CubicHermiteSpline
-from scipy.signal import cont2discrete, lfilter, ss2tf
 
 Values = NDArray[np.float64]
 
@@ -67,7 +65,7 @@ def recorded(
     hand = -(mass * a + damping * v + stiffness * (x - target))  # on the handle
     at, keeps = _instants(level, seconds, draw)
     count = float(draw.choice([5e-6, 10e-6, 25e-6]))
-    place_read = CubicHermiteSpline(t, x, v)(at)
+    place_read = _between(t, x, v, at)
     phase = draw.uniform(0, count)
     counted = count * np.floor((place_read + phase) / count)
     drift = np.zeros(len(at))
@@ -131,6 +129,13 @@ def _reaches(t: Values, draw: np.random.Generator) -> Values:
     return out
 
 
+def _between(t: Values, x: Values, v: Values, at: Values) -> Values:
+    """Return the position at other instants."""
+    from scipy.interpolate import CubicHermiteSpline
+
+    return np.asarray(CubicHermiteSpline(t, x, v)(at))
+
+
 def _moved(
     t: Values,
     motor: Values,
@@ -140,6 +145,8 @@ def _moved(
 ) -> tuple[Values, Values, Values]:
     """Return position, velocity and acceleration: motor and target straight over a step, a jumping target held."""
     mass, damping, k = hand[0] + device[0], hand[1] + device[1], hand[2]
+    from scipy.signal import cont2discrete, lfilter, ss2tf
+
     A = np.array([[0, 1], [-k / mass, -damping / mass]])
     B, C, D = np.array([[0], [1 / mass]]), np.eye(2), np.zeros((2, 1))
     moves = np.array([np.full(len(t), target[0]), np.zeros(len(t))])

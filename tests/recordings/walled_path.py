@@ -7,7 +7,6 @@ is a spring and a damper computed from counts, whose force stands for a tick and
 import sys
 
 import numpy as np
-from scipy.linalg import expm
 
 from ebac.identify import Recording, Target, fit_arm
 from ebac.identify.parameters import HAND
@@ -17,6 +16,8 @@ DT, PARTS, SECONDS = 1e-3, 4, 10.0
 
 def log(seed: int) -> tuple[Recording, Target, dict[str, float]]:
     """Return one log of a random hand, its target and what is true of the hand."""
+    from scipy.linalg import expm
+
     random = np.random.default_rng([909, seed])
 
     def between(low: float, high: float) -> float:  # log-uniform
