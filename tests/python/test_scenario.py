@@ -390,40 +390,6 @@ def test_a_value_is_frozen_hashable_and_equal_to_its_twins(value: Any) -> None:
             setattr(value, name, getattr(value, name))
 
 
-@every_value
-def test_a_value_refuses_positions_and_unknown_names(value: Any) -> None:
-    cls = type(value)
-    with pytest.raises(TypeError):
-        cls(1.0)
-    with pytest.raises(TypeError, match=r"no_such_name|constructor arguments"):
-        cls(**value.as_dict(), no_such_name=1.0)
-
-
-@pytest.mark.parametrize(
-    ("cls", "field"),
-    [
-        pytest.param(type(v), f, id=f"{type(v).__name__}.{f.name}")
-        for v in VALUES
-        if hasattr(v, "fields")
-        for f in v.fields()
-    ],
-)
-def test_each_bound_is_accepted_and_one_step_beyond_refused(cls: Any, field: Any) -> None:
-    assert field.unit
-    assert field.meaning in cls.__doc__
-    for bound, way in ((field.low, -1), (field.high, 1)):
-        if math.isinf(bound) or field.kind == "bool":
-            continue
-        kind = int if field.kind == "int" else float
-        assert getattr(cls(**{field.name: kind(bound)}), field.name) == bound
-        beyond = int(bound) + way if field.kind == "int" else math.nextafter(bound, way * math.inf)
-        with pytest.raises(ValueError, match=rf"{cls.__name__}\.{field.name} = .*: must lie in \["):
-            cls(**{field.name: beyond})
-    if field.kind == "float":
-        with pytest.raises(ValueError, match=rf"{cls.__name__}\.{field.name} = nan"):
-            cls(**{field.name: math.nan})
-
-
 @pytest.mark.parametrize("world", [ebac.Corner(), ebac.Disc(), ebac.Wall(angle=np.pi / 2)])
 def test_a_world_one_axis_would_never_feel_is_refused(world: Any) -> None:
     with pytest.raises(ValueError, match=r"needs 2 axes, the device has 1; give a device with"):
