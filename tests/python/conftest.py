@@ -122,6 +122,23 @@ def run() -> Callable[..., ebac.Trace]:
 
 
 @pytest.fixture(scope="session")
+def of_each() -> Callable[[dict[str, Any], Callable[[Any], None]], None]:
+    """Return a function that checks every case, by its name, and then reports all that fail."""
+
+    def check_all(cases: dict[str, Any], check: Callable[[Any], None]) -> None:
+        wrong = []
+        for name, case in cases.items():
+            try:
+                check(case)
+            except (Exception, pytest.fail.Exception) as failure:
+                wrong.append(f"{name}: {failure}")
+        if wrong:
+            pytest.fail("\n".join(wrong), pytrace=False)
+
+    return check_all
+
+
+@pytest.fixture(scope="session")
 def until() -> Callable[["Run", Callable[[], bool]], None]:
     """A function that waits for something that happens while a loop runs."""
 
