@@ -312,6 +312,9 @@ from ebac.studies import (
     Shapes as Shapes,
 )
 from ebac.studies import (
+    Stiffest as Stiffest,
+)
+from ebac.studies import (
     Study as Study,
 )
 from ebac.studies import (
@@ -340,6 +343,9 @@ from ebac.studies import (
 )
 from ebac.studies import (
     shapes as shapes,
+)
+from ebac.studies import (
+    stiffest as stiffest,
 )
 from ebac.studies import (
     study as study,

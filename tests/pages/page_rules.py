@@ -119,6 +119,12 @@ RULES = (
         NEVER,
         "takes 3 s of a core even with one hand; the one of the story has more changes",
     ),
+    Rule(
+        r"^ebac stiffest\b",
+        SLOW,
+        "takes a minute",
+        fewer="--population random --hands 1 --wall-stiffness 2000",
+    ),
     Rule(r"^ebac (study|ablation)\b", SLOW, "takes seconds", fewer="--population random --hands 1"),
     Rule(r"^ebac tune\b", SLOW, "takes seconds", fewer="--hands 3 --evaluations 4"),
     Rule(
@@ -195,7 +201,7 @@ FEWER = (
 #: What draws is run without files, which are most of its time: the building of the site draws every kind of figure by
 #: its command, and tests of the commands look at their files. With files: what has no options, or options for files.
 DRAWS = (
-    r"^ebac (ablation|map|random-worlds|shapes|study|wall|worst|zwidth) "
+    r"^ebac (ablation|map|random-worlds|shapes|stiffest|study|wall|worst|zwidth) "
     r"(?!.*--(format|json|log|no-files|out|resume|width)\b)"
 )
 

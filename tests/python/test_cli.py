@@ -430,7 +430,8 @@ def test_a_fault_is_told_and_its_log_kept(monkeypatch: pytest.MonkeyPatch, tmp_p
         ("wall --law mine.py:Mine", "see docs/how-to/write_a_law.md"),
         (
             "wall --change guard=off",
-            "--change: there is no such option here; `ebac ablation`, `ebac worst` and `ebac zwidth` have it",
+            "--change: there is no such option here; `ebac ablation`, `ebac stiffest`, `ebac worst` and `ebac zwidth` "
+            "have it",
         ),
         ("teleop simulate", "teleop simulate: there is no such command, did you mean 'run'; see"),
         ("simulate", "simulate: there is no such command, did you mean 'wall'; see"),

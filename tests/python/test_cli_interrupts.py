@@ -26,6 +26,7 @@ LONG = {
     "bench --repeats 100000": "--repeats",
     "bench --can --repeats 2000": "--repeats",
     "study --seconds 600": "--resume --out ebac-study",
+    "stiffest --seconds 60": "--resume --out ebac-stiffest",
     "track --simulated --runs 100000": "--runs",
     "tune tca --evaluations 100000": "the best so far was printed",
 }

@@ -24,6 +24,7 @@ from ebac.plot import (
     plot_columns,
     plot_fault,
     plot_map,
+    plot_stiffest,
     plot_study,
     plot_sweep,
     plot_trace,
@@ -36,7 +37,7 @@ from ebac.plot import (
 )
 from ebac.plot.save import balanced, fitted, millimetres
 from ebac.plot.style import BETTER, OTHER_LAWS, QUANTITIES, SAME, WORSE, colours
-from ebac.studies import MEASURES, ablation, study, worst
+from ebac.studies import MEASURES, ablation, stiffest, study, worst
 from ebac.studies.maps import stability_map
 from ebac.studies.zwidth import zwidth
 from ebac.tracking import RecordedPath, error_budget, evaluate
@@ -423,12 +424,14 @@ def test_a_study_of_several_conditions_names_what_they_share_and_explains_each()
 def test_every_study_has_a_title_that_says_simulated() -> None:
     few = Operators.sample(3, seed=1)
     base = ebac.Scenario(seconds=1.0)
+    few_laws = ["direct", "passivity-control", "tca", "eba", "ebac"]
     found = [
         *(figure for _, figure in plot_study(study(few, ["tca", "ebac"], ["d1K10"], base=base))),
         plot_ablation(ablation(few, base=base, measures=MEASURES[:2])),
         plot_sweep(ebac.sweep([base], ["tca", "ebac"])),
         plot_map(stability_map("ebac", base=base, xs=[0, 5, 9], ys=[1e3, 2e3, 1e4])),
         plot_zwidth(zwidth(["tca", "ebac"], base=base, delays=[1], dampings=[0.0, 5.0])),
+        plot_stiffest(stiffest(few_laws, population=few, stiffnesses=[1e3, 1e4, 1e5], base=base)),
         plot_worst(worst("ebac", family=["impact"], evaluations=40, base=base)),
         plot_budget(error_budget(runs=2)),
     ]

@@ -25,6 +25,7 @@ def results() -> list[Any]:
         ebac.study(few, law),
         ebac.sweep([SHORT], law),
         ebac.zwidth(law, base=SHORT, delays=[1], dampings=[0.0, 10.0], rungs=5),
+        ebac.stiffest(law, population=few, stiffnesses=[1e3, 2e3], base=SHORT),
         ebac.stability_map(base=SHORT, xs=[2.0, 4.0], ys=[1e3, 10e3]),
         ebac.ablation(few, changes=[{"guard": False}], beside=(), measures=MEASURES[:2]),
     ]

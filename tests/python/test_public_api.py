@@ -142,7 +142,16 @@ def test_every_folder_is_public_or_private_by_its_name() -> None:
 
 
 def test_a_function_of_the_root_is_no_module() -> None:
-    for name in ("study", "ablation", "worst", "sweep", "stability_map", "zwidth", "simulate"):
+    for name in (
+        "study",
+        "ablation",
+        "worst",
+        "sweep",
+        "stability_map",
+        "stiffest",
+        "zwidth",
+        "simulate",
+    ):
         assert inspect.isfunction(getattr(ebac, name)), name
 
 

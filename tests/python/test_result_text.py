@@ -15,7 +15,7 @@ from ebac import faults, paper
 from ebac._util import formatting, verdicts
 from ebac._util.report import cell, report
 from ebac.operators import Operators
-from ebac.studies import ablation, study, worst
+from ebac.studies import ablation, stiffest, study, worst
 from ebac.studies.maps import stability_map
 from ebac.studies.measures import MEASURES
 from ebac.studies.zwidth import zwidth
@@ -37,6 +37,9 @@ def results() -> dict[str, Callable[[], Any]]:
         "contact mm": lambda: ebac.contact(ebac.simulate(SHORT, "ebac")),
         "study [mJ]": lambda: study(FEW, ["tca", "ebac"], ["d1K10"]),
         "ablation hands": lambda: ablation(FEW),
+        "stiffest [N/m]": lambda: stiffest(
+            ["tca", "ebac"], population=FEW, stiffnesses=[1e3], base=SHORT
+        ),
         "worst [mJ]": lambda: worst("ebac", family=["impact"], evaluations=40),
         "sweep [mm]": lambda: ebac.sweep([SHORT] * 40, ["tca", "ebac"]),
         "map [N/m]": lambda: stability_map("ebac", base=SHORT, xs=[0, 5], ys=[1e3, 1e4]),

@@ -29,6 +29,17 @@ def _finite(value: Any) -> Any:
     return None if isinstance(value, float) and not isfinite(value) else value
 
 
+def save(path: str | Path, document: str, rows: Sequence[Mapping[str, Any]]) -> None:
+    """Write a document to a .json file, or rows to a .csv file; ValueError for another extension."""
+    from ebac.logs.files import extension
+
+    file = Path(path)
+    if extension(file, (".json", ".csv")) == ".csv":
+        csv_table(file, rows)
+    else:
+        file.write_text(document + "\n", encoding="utf-8")
+
+
 def csv_table(path: Path, rows: Sequence[Mapping[str, Any]], headings: Sequence[str] = ()) -> None:
     """Write rows of the same names as CSV; `headings` are the names, needed where there may be no row."""
     with path.open("w", encoding="utf-8", newline="") as file:

@@ -31,6 +31,7 @@ class Ebac(GroupByNeed):
         "study": Place(STUDY, "studies.study:study"),
         "conditions": Place(STUDY, "studies.conditions:conditions"),
         "ablation": Place(STUDY, "studies.ablation:ablation"),
+        "stiffest": Place(STUDY, "studies.stiffest:stiffest"),
         "worst": Place(STUDY, "studies.worst:worst"),
         "zwidth": Place(STUDY, "studies.zwidth:zwidth"),
         "tune": Place(STUDY, "studies.tune:tune"),

@@ -12,6 +12,7 @@ from ebac.plot.random_worlds import plot_random_worlds
 from ebac.plot.run import plot_trace
 from ebac.plot.save import FORMATS, WIDTHS, save
 from ebac.plot.shapes import plot_shapes
+from ebac.plot.stiffest import plot_stiffest
 from ebac.plot.study import plot_study
 from ebac.plot.style import (
     COLOURS,
@@ -59,6 +60,7 @@ __all__ = [
     "plot_overlay",
     "plot_random_worlds",
     "plot_shapes",
+    "plot_stiffest",
     "plot_study",
     "plot_sweep",
     "plot_teleop",

@@ -9,6 +9,7 @@ from ebac.studies.random_worlds import random_worlds
 from ebac.studies.random_worlds_result import RandomWorldRow, RandomWorlds
 from ebac.studies.result import Failure, Study, StudyRow
 from ebac.studies.shapes import ShapeRow, Shapes, shapes
+from ebac.studies.stiffest import Stiffest, StiffestRow, stiffest
 from ebac.studies.study import study
 from ebac.studies.tissue import Tissue, TissueRow, tissue
 from ebac.studies.tuning import Tuned, TunedRow, TuningInterrupted, tune
@@ -30,6 +31,8 @@ __all__ = [
     "RandomWorlds",
     "ShapeRow",
     "Shapes",
+    "Stiffest",
+    "StiffestRow",
     "Study",
     "StudyRow",
     "Tissue",
@@ -45,6 +48,7 @@ __all__ = [
     "pieces",
     "random_worlds",
     "shapes",
+    "stiffest",
     "study",
     "tissue",
     "tune",

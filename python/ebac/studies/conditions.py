@@ -65,12 +65,13 @@ def _cell(name: str, delay: int, damping: float, kilo: float) -> Condition:
     return Condition(name=name, summary=summary, change=cell(delay, damping, 1e3 * kilo))
 
 
-def wall_of(kilo: float) -> Condition:
-    """Return the condition that changes the stiffness of the wall [kN/m] and nothing else."""
+def wall_of(stiffness: float) -> Condition:
+    """Return the condition that changes the stiffness of the wall [N/m] and nothing else."""
+    kilo = f"{1e-3 * stiffness:g}"
     return Condition(
-        name=f"K{kilo:g}",
-        summary=f"wall {kilo:g} kN/m, all else as in the scenario",
-        change=to.wall(stiffness=1e3 * kilo),
+        name=f"K{kilo}",
+        summary=f"wall {kilo} kN/m, all else as in the scenario",
+        change=to.wall(stiffness=stiffness),
     )
 
 
@@ -308,5 +309,5 @@ def _named(name: str) -> list[Condition]:
     if numbers.name in CONDITIONS:
         return [CONDITIONS[numbers.name]]
     if numbers.delay is None or numbers.damping is None:
-        return [wall_of(numbers.kilo)]
+        return [wall_of(1e3 * numbers.kilo)]
     return [_cell(numbers.name, numbers.delay, numbers.damping, numbers.kilo)]

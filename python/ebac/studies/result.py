@@ -238,14 +238,8 @@ class Study:
         ValueError
             For another extension.
         """
-        from ebac.logs.files import extension
-
         require_path(path, "Study.save")
-        file = Path(path)
-        if extension(file, (".json", ".csv")) == ".csv":
-            row_files.csv_table(file, self._table())
-        else:
-            file.write_text(self.to_json() + "\n", encoding="utf-8")
+        row_files.save(path, self.to_json(), self._table())
 
 
 def _of(measure: Any, values: NDArray[np.float64]) -> float | None:

@@ -33,11 +33,7 @@ def fill(draft: Path, study: Study, traces: int | None, to: ResultOptions, *, qu
         study.save(draft / "study.csv")
         study.operators.to_csv(draft / "population.csv")
         study.result().to_csv(draft / "runs.csv")
-        failures = [
-            {"law": f.law, "condition": f.condition, "operator": f.operator, "hand": f.name, "why": f.why}
-            for f in study.failures
-        ]  # fmt: skip
-        output.csv_table(draft / "failures.csv", failures, FAILURES)
+        write_failures(draft / "failures.csv", study)
         step("drawing")
         for name, figure in plot_study(study):
             to.save(figure, draft, f"study-{name}")
@@ -45,6 +41,15 @@ def fill(draft: Path, study: Study, traces: int | None, to: ResultOptions, *, qu
             step("keeping traces of failures")
             name = f"failure-{failure.law}-{failure.condition}-{failure.operator}.npz"
             study.trace(failure.run).to_npz(draft / name)
+
+
+def write_failures(file: Path, study: Study) -> None:
+    """Write every hand that failed as CSV."""
+    failures = [
+        {"law": f.law, "condition": f.condition, "operator": f.operator, "hand": f.name, "why": f.why}
+        for f in study.failures
+    ]  # fmt: skip
+    output.csv_table(file, failures, FAILURES)
 
 
 def spread(failures: list[Failure], most: int) -> list[Failure]:

@@ -12,10 +12,9 @@ import typer
 
 from ebac.cli import by_name, interrupts, options, output, setting
 from ebac.cli.files import ResultOptions
-from ebac.cli.studies import zwidth_vibration
+from ebac.cli.studies import changed_laws, zwidth_vibration
 
 if TYPE_CHECKING:
-    from ebac.laws import Variant
     from ebac.studies.zwidth import ZWidth
 
 #: Largest wall damping [N s/m], stiffness [N/m] and energy [J] that can be asked for.
@@ -38,14 +37,7 @@ def zwidth(
     device: options.DeviceOptions,
     length: _Run,
     law: Annotated[list[str] | None, options.laws("all")] = None,
-    change: Annotated[
-        list[str] | None,
-        typer.Option(
-            help="The law once more, with other parameters: NAME=VALUE in SI units, on or off; several separated by "
-            "commas; repeat it. Wants one --law. `ebac laws NAME` lists the parameters.",
-            rich_help_panel=options.RUN,
-        ),
-    ] = None,
+    change: changed_laws.Change = None,
     delay: Annotated[
         list[int] | None,
         typer.Option(
@@ -116,7 +108,7 @@ def zwidth(
     from ebac.studies.zwidth import zwidth as search
 
     with output.refusing():
-        laws = _laws(by_name.law_names(law or ["all"]), change or [])
+        laws = changed_laws.beside(by_name.law_names(law or ["all"]), change or [])
         base = options.scenario_of(hand, device, length, seconds=3.0)
         base = base.replace(**setting.given(seed=seed))
         _check(most_damping, least_stiffness, most_stiffness, epsilon)
@@ -135,20 +127,6 @@ def zwidth(
         folder, "zwidth", _document(found), as_json=as_json,
         fill=lambda draft: _fill(draft, found, to), show=lambda: _show(found),
     )  # fmt: skip
-
-
-def _laws(names: list[str], changes: list[str]) -> dict[str, str | Variant]:
-    """Return the laws by name, and the one of `changes` once more with each of them."""
-    from ebac.laws import Variant
-
-    laws: dict[str, str | Variant] = {name: name for name in names}
-    if changes and len(names) != 1:
-        raise ValueError(
-            f"--change {changes[0]}: changes one law, not {len(names)}; give one --law, as --law {names[0]}"
-        )
-    for change in changes:
-        laws[f"{names[0]}, {change}"] = Variant(names[0], setting.parse_change(change))
-    return laws
 
 
 def _check(most_damping: float, least: float, most: float, epsilon: float) -> None:

@@ -1,0 +1,202 @@
+"""`ebac stiffest`: the stiffest wall up to which each law holds for all hands."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from ebac.cli import by_name, doubtful_wall, interrupts, options, output, setting
+from ebac.cli.files import ResultOptions
+from ebac.cli.studies import changed_laws, study_results
+
+if TYPE_CHECKING:
+    from ebac.studies import Stiffest
+
+_WHO = "Population"
+
+
+@dataclass(frozen=True, kw_only=True)
+class _Run(options.RunOptions):
+    wall_damping: Annotated[
+        float | None,
+        options.option(text="Damping B of the wall [N s/m]", default="0", panel=options.WALL),
+    ] = None
+    delay: options.Delay = None
+
+
+def stiffest(
+    to: ResultOptions,
+    device: options.DeviceOptions,
+    run: _Run,
+    law: Annotated[list[str] | None, options.laws("all")] = None,
+    change: changed_laws.Change = None,
+    wall_stiffness: Annotated[
+        list[float] | None,
+        typer.Option(
+            help="Stiffnesses of the walls to try [N/m]; several separated by commas.",
+            show_default="13, 1000 to 100000",
+            rich_help_panel=options.WALL,
+        ),
+    ] = None,
+    share: Annotated[
+        float,
+        typer.Option(
+            help="Share of the hands for which a wall must hold, above 0 and at most 1.",
+            rich_help_panel=_WHO,
+        ),
+    ] = 1.0,
+    population: Annotated[
+        str,
+        typer.Option(
+            help="grid60, random, or a CSV file as for `ebac study`.", rich_help_panel=_WHO
+        ),
+    ] = "grid60",
+    hands: Annotated[
+        int | None,
+        typer.Option(
+            help="Number of random hands.", show_default="500", min=1, rich_help_panel=_WHO
+        ),
+    ] = None,
+    seed: Annotated[
+        int,
+        typer.Option(help="Seed of random hands, noise and jitter.", min=0, rich_help_panel=_WHO),
+    ] = 1,
+    threads: options.Threads = None,
+    resume: Annotated[bool, options.resume("search")] = False,
+    as_json: output.AsJson = False,
+) -> None:
+    """Find the stiffest wall up to which each law holds for all hands.
+
+    A simulation of walls from soft to stiff, all else as in the scenario. Criteria, as in `ebac study`: *exact, still*
+    judges the position; *good*, the force is quiet, too; *good, in time*, and settled soon. A law's stiffest wall is
+    the last one before the first that fails: it may lose a soft wall and hold a stiffer one, which is then named below
+    the table. Beside it stands the most energy that any hand draws there. The best law is first.
+
+    **Examples**
+
+    * `ebac stiffest`: all laws on the reference device, 60 hands
+
+    * `ebac stiffest --law ebac --wall-stiffness 5000,10000,20000`: three walls, in seconds
+
+    * `ebac stiffest --law tca-damped --change kp=0 --delay 2 --wall-stiffness 5000,10000`: a damper alone beside it
+
+    * `ebac stiffest --law all --no-observer --share 0.95`: no force sensor, and 3 of the 60 hands may be lost
+    """
+    with output.refusing():
+        laws = changed_laws.beside(by_name.law_names(law or ["all"]), change or [])
+        _check(share, wall_stiffness or ())
+        given: dict[str, Any] = {
+            "population": setting.population(population, hands, seed),
+            "base": options.scenario_of(device, run),
+            "share": share,
+            "seed": seed,
+            "threads": threads,
+            **({"stiffnesses": wall_stiffness} if wall_stiffness else {}),
+        }
+    folder = to.folder("stiffest", as_json=as_json, resume=study_results.BUNDLES * resume)
+    found = _run(laws, given, folder, resume, quiet=as_json)
+    to.report(
+        folder, "stiffest", found.to_json(), as_json=as_json,
+        fill=lambda draft: _fill(draft, found, to), show=lambda: _show(found),
+    )  # fmt: skip
+
+
+def _check(share: float, stiffnesses: Sequence[float]) -> None:
+    """Refuse numbers by the names of their options."""
+    if not 0 < share <= 1:
+        raise ValueError(f"--share = {share:g}: must lie in (0, 1]; 1 asks that every hand is held")
+    for stiffness in stiffnesses:
+        if not 0 < stiffness <= doubtful_wall.MOST:
+            raise ValueError(
+                f"--wall-stiffness = {stiffness:g} N/m: must lie in (0, {doubtful_wall.MOST:g}] N/m"
+            )
+        doubtful_wall.tell_option(stiffness)
+
+
+def _run(
+    laws: Any, given: dict[str, Any], folder: Path | None, resume: bool, *, quiet: bool
+) -> Stiffest:
+    from ebac.studies import stiffest as search
+
+    with (
+        interrupts.resumable("search", folder),
+        output.refusing(folder),
+        output.counting("simulating", quiet=quiet) as progress,
+    ):
+        bundles = None if folder is None else folder / study_results.BUNDLES
+        return search(laws, out=bundles, resume=resume, progress=progress, **given)
+
+
+def _fill(draft: Path, found: Stiffest, to: ResultOptions) -> None:
+    to.save(found.plot(), draft, "stiffest")
+    found.save(draft / "stiffest.csv")
+    output.csv_table(draft / "walls.csv", found.walls())
+    study_results.write_failures(draft / "failures.csv", found.study)
+    found.study.operators.to_csv(draft / "population.csv")
+    found.study.result().to_csv(draft / "runs.csv")
+    found.base.save(draft / "scenario.toml")
+
+
+def _show(found: Stiffest) -> None:
+    from ebac._util import formatting
+
+    output.say(
+        f"Stiffest wall [kN/m] up to which {found.needed} of {found.hands} hands are exact and still, good, good in "
+        "time; beside it what is drawn there, and how soon it settles.",
+        style="bold",
+    )
+    headings = [
+        "law",
+        "exact, still",
+        "good",
+        "drawn",
+        "settled",
+        "good, in time",
+        "drawn",
+        "settled",
+    ]
+    grid = output.table(headings, numbers=range(1, len(headings)))
+    top = float(found.stiffnesses[-1])
+    for row in found.rows:
+        grid.add_row(
+            row.law,
+            _kilo(row.exact_and_still_N_per_m, top),
+            _kilo(row.good_N_per_m, top),
+            formatting.quantity(row.good_drawn_J, "J"),
+            formatting.quantity(row.good_settled_s, "s"),
+            _kilo(row.good_in_time_N_per_m, top),
+            formatting.quantity(row.good_in_time_drawn_J, "J"),
+            formatting.quantity(row.good_in_time_settled_s, "s"),
+        )
+    output.show(grid)
+    _show_again(found)
+    output.say(
+        f"Up to which: all softer ones of the {output.plural(len(found.stiffnesses), 'wall')} tried hold, too; none: "
+        f"the softest, {1e-3 * found.stiffnesses[0]:g} kN/m, fails. Drawn: most energy that any hand draws in any "
+        "window at that wall. Settled: median of the hands that settle there."
+    )
+    if "good_in_time" not in found.counts:
+        output.say(
+            "In time is not judged: the time at an ideal wall is known on straight axes only."
+        )
+    output.say("Simulated, not measured. Stiffness and hand vary; everything else:", style="bold")
+    device, _, *others = formatting.describe(found.base).split("; ")
+    output.indented("\n".join([device, *others[-2:]]))
+
+
+def _show_again(found: Stiffest) -> None:
+    """Name the stiffer walls at which a law is good though it fails at a softer one."""
+    for law, walls in found.again("good").items():
+        if walls:
+            named = ", ".join(f"{1e-3 * wall:g}" for wall in walls)
+            output.say(f"{law}: good at {named} kN/m, too, beyond a softer wall that fails.")
+
+
+def _kilo(stiffness: float | None, top: float) -> str:
+    if stiffness is None:
+        return "none"
+    return f"{1e-3 * stiffness:g}{' or more' if stiffness == top else ''}"

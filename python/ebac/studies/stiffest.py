@@ -1,0 +1,308 @@
+"""`stiffest`: the stiffest wall up to which each law holds for all hands of a population."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from concurrent.futures import Executor
+from dataclasses import asdict, dataclass
+from functools import cached_property
+from math import ceil
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ebac._core import Wall
+from ebac._util import row_files
+from ebac._util.arguments import require, require_path, several
+from ebac.laws import LAWS
+from ebac.operators import Operators
+from ebac.scenario import Scenario
+from ebac.studies.conditions import wall_of
+from ebac.studies.result import Study
+from ebac.studies.study import study
+from ebac.studies.sweeps.job import Progress
+from ebac.studies.sweeps.run import Laws
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+#: Stiffnesses of the walls that are tried, softest first [N/m].
+LADDER = (1e3, 1.5e3, 2e3, 3e3, 5e3, 7e3, 10e3, 15e3, 20e3, 30e3, 50e3, 70e3, 100e3)
+#: Stiffest wall there is [N/m].
+MOST = 1e7
+#: The criteria, each stricter than the one before, and what each asks of a hand.
+CRITERIA = {
+    "exact_and_still": "rests where it rests at the ideal wall, and does not swing",
+    "good": "exact and still, and the force is quiet, too",
+    "good_in_time": "good, and settled within 1.5 times the time of the ideal wall, plus 0.2 s",
+}
+#: The hands that are asked for may be missed by so little, as 0.95 of 60 is 57.00000000000001 [hands].
+_ROUNDING = 1e-9
+
+
+@dataclass(frozen=True, kw_only=True)
+class StiffestRow:
+    """The stiffest walls of one law; None where already the softest wall of the ladder fails.
+
+    Attributes
+    ----------
+    law : str
+        Its name.
+    exact_and_still_N_per_m, good_N_per_m, good_in_time_N_per_m : float or None
+        Stiffest wall up to which every wall of the ladder holds, by each of `CRITERIA`.
+    exact_and_still_drawn_J, good_drawn_J, good_in_time_drawn_J : float or None
+        Most energy that any hand draws in any window at that wall, see `Contact`; hands beyond `share` count, too.
+    exact_and_still_settled_s, good_settled_s, good_in_time_settled_s : float or None
+        Median settling time at that wall, of the hands that settle.
+    """
+
+    law: str
+    exact_and_still_N_per_m: float | None
+    exact_and_still_drawn_J: float | None
+    exact_and_still_settled_s: float | None
+    good_N_per_m: float | None
+    good_drawn_J: float | None
+    good_settled_s: float | None
+    good_in_time_N_per_m: float | None
+    good_in_time_drawn_J: float | None
+    good_in_time_settled_s: float | None
+
+    def row(self) -> dict[str, Any]:
+        """Return the documented row of `ebac stiffest --json`."""
+        return asdict(self)
+
+
+@dataclass(frozen=True, kw_only=True, eq=False, repr=False)
+class Stiffest:
+    """For each law the stiffest wall up to which it holds for all hands, or for a share of them.
+
+    Attributes
+    ----------
+    study : Study
+        Every run: laws x walls x hands, the condition `K10` being the wall of 10 kN/m.
+    base : Scenario
+        What was simulated, but for the hand and the stiffness of the wall.
+    stiffnesses : array, shape (walls,)
+        Stiffness of the walls, softest first [N/m].
+    share : float
+        Share of the hands for which a wall must hold, (0, 1].
+    counts : dict of str to array, shape (laws, walls)
+        Hands that meet each of `CRITERIA`; no `good_in_time` where the time at the ideal wall is not known, as on a
+        gimbal.
+    """
+
+    study: Study
+    base: Scenario
+    stiffnesses: NDArray[np.float64]
+    share: float
+    counts: dict[str, NDArray[np.int64]]
+
+    @property
+    def hands(self) -> int:
+        """The number of hands."""
+        return len(self.study.operators)
+
+    @property
+    def needed(self) -> int:
+        """The number of hands for which a wall must hold."""
+        return ceil(self.share * self.hands - _ROUNDING)
+
+    def holds(self, criterion: str) -> NDArray[np.bool_]:
+        """Return where enough hands meet one of `CRITERIA`, shape (laws, walls); False where it is not known."""
+        if criterion not in self.counts:
+            return np.zeros((len(self.study.laws), len(self.stiffnesses)), bool)
+        return np.asarray(self.counts[criterion] >= self.needed)
+
+    def again(self, criterion: str) -> dict[str, list[float]]:
+        """Return for each law the walls that hold though a softer one fails, by stiffness [N/m]; most have none."""
+        holds = self.holds(criterion)
+        beyond = holds & ~np.logical_and.accumulate(holds, axis=1)
+        return {
+            law: self.stiffnesses[walls].tolist()
+            for law, walls in zip(self.study.laws, beyond, strict=True)
+        }
+
+    @cached_property
+    def rows(self) -> list[StiffestRow]:
+        """One row per law, best first: by the strictest criterion, then the next, then the least energy drawn."""
+        found = [self._row(i, law) for i, law in enumerate(self.study.laws)]
+        return sorted(found, key=_rank)
+
+    def _row(self, i: int, law: str) -> StiffestRow:
+        values: dict[str, float | None] = {}
+        for criterion in CRITERIA:
+            walls = int(np.logical_and.accumulate(self.holds(criterion)[i]).sum())
+            at = self._walls[i][walls - 1] if walls else {}
+            values |= {
+                f"{criterion}_N_per_m": at.get("stiffness_N_per_m"),
+                f"{criterion}_drawn_J": at.get("most_drawn_J"),
+                f"{criterion}_settled_s": at.get("median_settled_s"),
+            }
+        return StiffestRow(law=law, **values)
+
+    def walls(self) -> list[dict[str, Any]]:
+        """Return one row per law and wall: how many hands meet each criterion, energy drawn, settling; SI units."""
+        return [row for rows in self._walls for row in rows]
+
+    @cached_property
+    def _walls(self) -> list[list[dict[str, Any]]]:
+        laws = list(self.study.laws)
+        return [
+            [
+                {
+                    "law": law,
+                    "stiffness_N_per_m": float(stiffness),
+                    "hands": self.hands,
+                    **{
+                        name: int(self.counts[name][i, k]) if name in self.counts else None
+                        for name in CRITERIA
+                    },
+                    "most_drawn_J": row.most_drawn_J,
+                    "median_settled_s": row.median_settled_s,
+                }
+                for k, stiffness in enumerate(self.stiffnesses)
+                for row in [self.study.rows[k * len(laws) + i]]
+            ]
+            for i, law in enumerate(laws)
+        ]
+
+    def __repr__(self) -> str:
+        """Return a row per law, the best first."""
+        from ebac._util.report import report
+
+        return report(self._title(), self._table(), keys=("law",))
+
+    def _repr_html_(self) -> str:
+        """Return the figure and a row per law, for a notebook."""
+        from ebac._util import notebook
+
+        return notebook.result(self._title(), self._table(), self.plot)
+
+    def _title(self) -> str:
+        of = f"{self.needed} of {self.hands} hands"
+        ends = f"{1e-3 * self.stiffnesses[0]:g} to {1e-3 * self.stiffnesses[-1]:g} kN/m"
+        return f"Stiffest wall up to which {of} are held, simulated; {len(self.stiffnesses)} walls, {ends}"
+
+    def _table(self) -> list[dict[str, Any]]:
+        return [row.row() for row in self.rows]
+
+    def plot(self) -> Figure:
+        """Draw the share of the hands that meet each criterion over the stiffness, a panel for each law."""
+        from ebac.plot import plot_stiffest
+
+        return plot_stiffest(self)
+
+    def to_json(self) -> str:
+        """Return the JSON document of `ebac stiffest --json`: a row per law, SI units."""
+        return row_files.document(
+            "stiffest", self._table(), hands=self.hands, share=self.share,
+            stiffnesses_N_per_m=self.stiffnesses.tolist(), walls=self.walls(),
+        )  # fmt: skip
+
+    def save(self, path: str | Path) -> None:
+        """Write a row per law, the format by the extension: .json as `to_json`, or .csv. A file there is replaced.
+
+        Raises
+        ------
+        ValueError
+            For another extension.
+        """
+        require_path(path, "Stiffest.save")
+        row_files.save(path, self.to_json(), self._table())
+
+
+def stiffest(
+    laws: Laws | None = None,
+    *,
+    population: Operators | None = None,
+    stiffnesses: Sequence[float] = LADDER,
+    share: float = 1.0,
+    base: Scenario | None = None,
+    seed: int | None = None,
+    threads: int | None = None,
+    executor: Executor | None = None,
+    out: str | Path | None = None,
+    resume: bool = True,
+    progress: Progress | None = None,
+) -> Stiffest:
+    """Search for each law the stiffest wall up to which it holds for all hands of a population.
+
+    "Up to which" means that all softer walls of the ladder hold as well: a law may lose a soft wall and hold a stiffer
+    one, see `Stiffest.again`.
+
+    Parameters
+    ----------
+    laws : law, sequence of laws, or mapping of names to laws
+        As `sweep` takes them; default: every law of `LAWS`.
+    population : Operators, optional
+        The hands; default: the 60 of `Operators.grid()`.
+    stiffnesses : sequence of float
+        Walls to try [N/m], (0, 1e7].
+    share : float
+        Share of the hands for which a wall must hold, (0, 1].
+    base : Scenario, optional
+        Device, timing, damping of the wall and all else; default: the reference scenario.
+    seed, threads, executor, out, resume, progress
+        As in `study`.
+
+    Returns
+    -------
+    Stiffest
+
+    Raises
+    ------
+    SweepInterrupted
+        On a keyboard interrupt, as `sweep`.
+    TypeError
+        For a base whose environment is not a wall.
+    ValueError
+        For a number out of its range, or a base at whose wall no hand has an ideal rest, as where the wall moves.
+    """
+    from ebac.metrics.unjudged import no_ideal_rest
+
+    scenario = Scenario() if base is None else base
+    require(scenario, Scenario, "ebac.stiffest", "a Scenario as its base")
+    require(
+        scenario.environment, Wall, "ebac.stiffest", "a base with a Wall, whose stiffness it sets"
+    )
+    hands = Operators.grid() if population is None else population
+    require(hands, Operators, "ebac.stiffest", "a population, an Operators")
+    ladder = _ladder(stiffnesses)
+    if not 0 < share <= 1:
+        raise ValueError(f"share = {share:g}: must lie in (0, 1]; 1 asks that every hand is held")
+    walls = [wall_of(stiffness) for stiffness in ladder.tolist()]
+    if why := no_ideal_rest(walls[0].scenarios(hands[:1], scenario)[0]):
+        raise ValueError(f"stiffest: no hand can be judged: {why}; give another base")
+    found = study(
+        hands, list(LAWS.values()) if laws is None else laws, walls, base=scenario, seed=seed,
+        threads=threads, executor=executor, out=out, resume=resume, progress=progress,
+    )  # fmt: skip
+    columns = found.columns
+    met = {
+        "exact_and_still": columns["exact_and_still"],
+        "good": columns["good"],
+        "good_in_time": columns["good"] & columns["settled_in_time"],
+    }
+    if np.isnan(columns["ideal_settled_s"]).any():
+        del met["good_in_time"]
+    shape = (len(found.laws), len(ladder), len(hands))
+    counts = {name: flags.reshape(shape).sum(axis=2) for name, flags in met.items()}
+    return Stiffest(study=found, base=scenario, stiffnesses=ladder, share=share, counts=counts)
+
+
+def _ladder(stiffnesses: Sequence[float]) -> NDArray[np.float64]:
+    """Return the stiffnesses, each once, softest first [N/m]."""
+    ladder = np.unique(np.array(several("stiffnesses", stiffnesses), float))
+    for stiffness in ladder:
+        if not 0 < stiffness <= MOST:
+            raise ValueError(f"stiffnesses: {stiffness:g} N/m: must lie in (0, {MOST:g}] N/m")
+    return ladder
+
+
+def _rank(row: StiffestRow) -> tuple[float, ...]:
+    """Return what a row is sorted by, least first."""
+    walls = [getattr(row, f"{name}_N_per_m") or 0.0 for name in reversed(CRITERIA)]
+    drawn = [getattr(row, f"{name}_drawn_J") for name in reversed(CRITERIA)]
+    return (*(-wall for wall in walls), next((one for one in drawn if one is not None), 0.0))
