@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from ebac.studies.stiffest import Stiffest
 
 #: Panels abreast, and in one column of a journal.
-ABREAST, NARROW = 4, 2
+ABREAST, NARROW = 5, 2
 #: How the share of each criterion is drawn, and what it is called.
 LINES: dict[str, tuple[str, dict[str, Any]]] = {
     "exact_and_still": ("exact and still", {"ls": (0, (1, 2)), "lw": 1.4}),

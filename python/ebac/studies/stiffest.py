@@ -126,7 +126,7 @@ class Stiffest:
 
     @cached_property
     def rows(self) -> list[StiffestRow]:
-        """One row per law, best first: by the strictest criterion, then the next, then the least energy drawn."""
+        """One row per law, best first: by the wall that is good, then in time, then exact, then by the energy."""
         found = [self._row(i, law) for i, law in enumerate(self.study.laws)]
         return sorted(found, key=_rank)
 
@@ -303,6 +303,6 @@ def _ladder(stiffnesses: Sequence[float]) -> NDArray[np.float64]:
 
 def _rank(row: StiffestRow) -> tuple[float, ...]:
     """Return what a row is sorted by, least first."""
-    walls = [getattr(row, f"{name}_N_per_m") or 0.0 for name in reversed(CRITERIA)]
-    drawn = [getattr(row, f"{name}_drawn_J") for name in reversed(CRITERIA)]
-    return (*(-wall for wall in walls), next((one for one in drawn if one is not None), 0.0))
+    walls = (row.good_N_per_m, row.good_in_time_N_per_m, row.exact_and_still_N_per_m)
+    drawn = row.exact_and_still_drawn_J if row.good_N_per_m is None else row.good_drawn_J
+    return (*(-(wall or 0.0) for wall in walls), drawn or 0.0)

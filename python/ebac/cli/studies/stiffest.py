@@ -74,7 +74,8 @@ def stiffest(
     A simulation of walls from soft to stiff, all else as in the scenario. Criteria, as in `ebac study`: *exact, still*
     judges the position; *good*, the force is quiet, too; *good, in time*, and settled soon. A law's stiffest wall is
     the last one before the first that fails: it may lose a soft wall and hold a stiffer one, which is then named below
-    the table. Beside it stands the most energy that any hand draws there. The best law is first.
+    the table. Beside it stands the most energy that any hand draws there. The law that is good up to the stiffest wall
+    is first.
 
     **Examples**
 
