@@ -77,7 +77,8 @@ def z_width() -> Picture:
         "lag-compensator, for the area": ebac.Variant("lag-compensator", for_the_area),
         "ebac": "ebac",
     }
-    return plot_zwidth(zwidth(laws, base=NOISY.replace(seconds=3.0, observer="every-law")))
+    found = zwidth(laws, base=NOISY.replace(seconds=3.0, observer="every-law"))
+    return plot_zwidth(found, ["usable", "energy", "quiet", "still"])
 
 
 def energy() -> Picture:

@@ -12,12 +12,13 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from matplotlib.axes import Axes
-from matplotlib.lines import Line2D
+from matplotlib.image import imread
 from typer.testing import CliRunner
 
 import ebac
 from ebac.cli import app
-from ebac.plot import plot_zwidth
+from ebac.plot import plot_zwidth, save
+from ebac.plot.zwidth import MARKS
 from ebac.studies.zwidth import (
     CRITERIA,
     ZWidth,
@@ -286,13 +287,13 @@ def test_the_figure_has_every_law_and_ceiling(found: ZWidth) -> None:
     figure = plot_zwidth(found)
     labels = [text.get_text() for text in figure.legends[0].get_texts()]
     assert labels[:2] == ["direct", "eba"]
-    assert len(labels) == 2 + 1 + 3
+    assert len(labels) == 2 + 1 + 1
     assert "end of the search, 100 kN/m" in labels
     figure.savefig("/dev/null", format="svg")
 
 
 def test_a_ceiling_stands_in_the_panels_of_its_criterion_only(found: ZWidth) -> None:
-    figure = plot_zwidth(found)
+    figure = plot_zwidth(found, ["still", "quiet", "energy", "usable"])
     columns, bars = len(found.delays), 1
     own = [labels(ax) for ax in figure.axes[: len(figure.axes) - bars * columns : columns]]
     stable = {"linear loop, no law", "linear loop by formula (Gil et al. 2009), hand on"}
@@ -325,17 +326,37 @@ def test_borders_that_coincide_all_remain_visible_and_a_law_without_one_is_named
     )
     panel = plot_zwidth(three).axes[0]
     assert panel.get_title(loc="left") == "no wall: ebac"
-    first, second = (line for line in panel.lines if line.is_dashed() and line.get_lw() == 2)
-    assert first.get_color() != second.get_color()
-    shown = [set(on(line)) for line in (first, second)]
-    assert not shown[0] & shown[1]
-    assert len(shown[0] | shown[1]) == 8
+    first, second = (np.asarray(line.get_ydata(), float) for line in panel.lines[:2])
+    assert np.allclose(1e3 * first, found.top)
+    assert (second < 0.99 * first).all()
+    assert (second > 0.8 * first).all()
 
 
-def on(line: Line2D) -> list[int]:
-    """Return where a dashed line is drawn, in the first eight widths of a line."""
-    start, (dash, gap) = line._unscaled_dash_pattern  # type: ignore[attr-defined]
-    return [place for place in range(8) if (place + start) % (dash + gap) < dash]
+def test_every_searched_damping_has_a_mark_and_no_two_laws_the_same(found: ZWidth) -> None:
+    for figure in (plot_zwidth(found), plot_zwidth(found).narrow()):  # type: ignore[misc]
+        marks = [line.get_marker() for line in figure.axes[0].lines[:2]]
+        assert len(set(marks) - {"None"}) == 2
+    assert len(set(MARKS)) >= len(ebac.LAWS)
+
+
+def test_the_panels_are_those_of_the_criteria_asked_for(found: ZWidth) -> None:
+    shown = [ax.get_ylabel() for ax in plot_zwidth(found, ["quiet"]).axes if ax.get_ylabel()]
+    assert shown == ["quiet\nup to K [kN/m]"]
+    for wrong in ([], ["loud"]):
+        with pytest.raises(ValueError, match="must be some of usable, energy, quiet, still"):
+            plot_zwidth(found, wrong)
+
+
+@pytest.mark.slow
+def test_thirteen_laws_fit_a_page_in_one_column(found: ZWidth, tmp_path: Path) -> None:
+    laws = len(ebac.LAWS)
+    many = replace(
+        found,
+        laws=tuple(ebac.LAWS),
+        limits={name: np.repeat(values[:1], laws, 0) for name, values in found.limits.items()},
+    )
+    file = save(plot_zwidth(many), tmp_path / "zwidth.png", width="single")
+    assert imread(file).shape[0] < 230 / 25.4 * 300  # the height of a page's text
 
 
 # --- ebac zwidth ---
@@ -371,6 +392,7 @@ def test_the_command_writes_a_folder(tmp_path: Path) -> None:
     names = {path.name for path in (tmp_path / "out").iterdir()}
     assert names == {
         "zwidth.png",
+        "zwidth-still.png",
         "zwidth.json",
         "zwidth.csv",
         "scores.csv",
@@ -409,7 +431,7 @@ def test_random_hands_are_named_where_the_result_is_shown(tmp_path: Path) -> Non
         text.split()
     )
     figure = plot_zwidth(search(laws="direct", delays=(1,), rungs=3, hands=1))
-    assert "drawn from the port (7 random hands included)" in figure.get_suptitle()
+    assert "at most 1 mJ drawn (7 random hands included)" in figure.get_suptitle()
 
 
 def test_the_command_puts_other_parameters_of_a_law_beside_it() -> None:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from functools import partial
 from textwrap import wrap
 from typing import TYPE_CHECKING, Any
 
@@ -11,16 +13,19 @@ from matplotlib.ticker import MaxNLocator
 
 from ebac._util import formatting
 from ebac._util.arrays import Values
-from ebac.plot.shared_lines import draw_shared
+from ebac.plot.shared_lines import side_by_side
 from ebac.plot.style import Picture, colours, dress, figure_legend, new_figure
 
 if TYPE_CHECKING:
     from ebac.studies.zwidth import ZWidth
 
-#: Width of a border [points].
-WIDTH = 2.0
-#: The criteria drawn, a row of panels each.
-ROWS = {"still": "still", "quiet": "quiet", "energy": "at most {} mJ", "usable": "usable"}
+#: Width of a border and size of its marks [points]; the height of a panel [inch], and in one column.
+WIDTH, MARK = 1.4, 4.0
+HEIGHT, NARROW_HEIGHT = 2.8, 1.9
+#: One mark per law, in their order.
+MARKS = "osD^v<>PXhp*d"
+#: The criteria that can be drawn: the label of a panel.
+LABELS = {"usable": "usable", "energy": "at most {} mJ", "quiet": "quiet", "still": "still"}
 #: The ceilings: how each is drawn, in the row of panels of its criterion.
 CEILINGS: dict[str, dict[str, dict[str, Any]]] = {
     "still": {
@@ -35,68 +40,118 @@ CEILINGS: dict[str, dict[str, dict[str, Any]]] = {
 }
 
 
-def plot_zwidth(found: ZWidth) -> Picture:
+def plot_zwidth(found: ZWidth, criteria: Sequence[str] = ("usable", "energy")) -> Picture:
     """Draw a Z-width: borders by criterion and delay, with the ceilings, and the areas below.
 
     Parameters
     ----------
     found : ZWidth
         What `ebac.studies.zwidth.zwidth` returned.
+    criteria : sequence of {"usable", "energy", "quiet", "still"}
+        A row of panels each.
 
     Returns
     -------
     Figure
-        One column of panels per delay. A law that holds no wall, however soft, is named above the panel, and "none"
-        stands in the legend behind one that holds none in any of them; one with "none" at its bar is never quiet. Where
-        borders coincide, their dashes take turns.
+        One column of panels per delay, with a mark at every wall damping that was searched. A law that holds no wall,
+        however soft, is named above the panel, and "none" stands in the legend behind one that holds none in any of
+        them; one with "none" at its bar is never quiet. Borders that coincide are drawn side by side, the true one on
+        top.
+
+    Raises
+    ------
+    ValueError
+        When there is no criterion, or one is unknown.
     """
-    columns = len(found.delays)
-    bars = 0.9 + 0.26 * len(found.laws)
-    figure = new_figure(2.6 + 3.6 * columns, 1.2 + 2.6 * len(ROWS) + bars)
-    grid = figure.subplots(
-        len(ROWS) + 1, columns, squeeze=False, sharey="row", height_ratios=[2.6] * len(ROWS) + [bars]
-    )  # fmt: skip
+    if not criteria or not set(criteria) <= set(LABELS):
+        raise ValueError(f"criteria = {criteria!r}: must be some of {', '.join(LABELS)}")
+    return _draw(found, list(criteria), narrow=False)
+
+
+def _draw(found: ZWidth, criteria: list[str], *, narrow: bool) -> Picture:
+    delays = len(found.delays)
+    bars = 0.7 + (0.17 if narrow else 0.26) * len(found.laws)
+    panel = NARROW_HEIGHT if narrow else HEIGHT
+    down, abreast = (delays, len(criteria)) if narrow else (len(criteria), delays)
+    figure = new_figure(5 if narrow else 2.6 + 3.6 * delays, 1.4 + panel * down + bars)
+    figure.narrow = partial(_draw, found, criteria, narrow=True)
+    ratios = [panel] * down + [bars]
+    grid = figure.add_gridspec(len(ratios), abreast * delays, height_ratios=ratios)
+    first: Axes | None = None
+    for row, column in np.ndindex(down, abreast):
+        c, d = (column, row) if narrow else (row, column)
+        place = grid[row, delays * column : delays * (column + 1)]
+        ax = figure.add_subplot(place, sharex=first, sharey=first)
+        first = first or ax
+        _borders(ax, found, criteria[c], d, panel)
+        words = LABELS[criteria[c]].format(f"{1e3 * found.epsilon:g}")
+        samples = "1 sample" if found.delays[d] == 1 else f"{found.delays[d]} samples"
+        across, beside = (words, f"delay {samples}") if narrow else (f"delay {samples}", words)
+        if row == 0:
+            ax.annotate(
+                across, (0.5, 1), (0, 34 if narrow else 24), "axes fraction", textcoords="offset points",
+                ha="center", fontweight="bold",
+            )  # fmt: skip
+        if column == 0:
+            ax.set_ylabel(f"{beside}\nup to K [kN/m]")
+        if row == down - 1:
+            ax.set_xlabel("wall damping B [N s/m]")
+        ax.tick_params(labelleft=column == 0, labelbottom=row == down - 1)
+    below: Axes | None = None
     for d, delay in enumerate(found.delays):
-        for ax, criterion in zip(grid[:, d], ROWS, strict=False):
-            _borders(ax, found, criterion, d)
-        _areas(grid[-1, d], found, delay)
-    absent = [ax.get_title(loc="left") for ax in grid[0]]
-    above = "\n" * max(name.count("\n") + 1 if name else 0 for name in absent)
-    for ax, delay in zip(grid[0], found.delays, strict=True):
-        samples = "1 sample" if delay == 1 else f"{delay} samples"
-        ax.set_title(f"delay {samples}{above}", fontsize="medium", fontweight="bold")
-    for row, text in enumerate(ROWS.values()):
-        words = text.format(f"{1e3 * found.epsilon:g}")
-        dress(grid[row, 0], f"{words}\nup to K [kN/m]")
-    for ax in grid[len(ROWS) - 1]:
-        ax.set_xlabel("wall damping B [N s/m]")
-    grid[-1, 0].set_yticks(range(len(found.laws)), found.laws)
-    grid[-1, 0].invert_yaxis()
+        ax = figure.add_subplot(grid[-1, abreast * d : abreast * (d + 1)], sharey=below)
+        _areas(ax, found, delay)
+        ax.tick_params(labelleft=below is None)
+        if below is None:
+            below = ax
+            ax.set_yticks(range(len(found.laws)), found.laws)
+            ax.invert_yaxis()
+        if narrow and delays > 1:
+            ax.set_xlabel(f"delay {delay}\nmean K [kN/m]" if d != delays // 2 else
+                          f"delay {delay}\nmean K [kN/m]\npale: quiet, full: usable")  # fmt: skip
     entries = dict(
         entry
-        for ax in grid[: len(ROWS), 0]
+        for ax in figure.axes[:-delays]
         for entry in zip(*reversed(ax.get_legend_handles_labels()), strict=True)
     )
     figure_legend(figure, list(entries.values()), list(entries), columns=5)
-    parts = formatting.describe(found.base).split("; ")
-    others = f" ({found.random_hands} included)" if found.hands else ""
-    figure.suptitle(
-        f"Z-width, simulated: {parts[0]}; {parts[1]}; {1e-3 / found.base.timing.dt:g} kHz\n"
-        "Hardest wall K that each law renders, by wall damping B: still, still and with a quiet force (quiet), with at "
-        f"most {1e3 * found.epsilon:g} mJ drawn from the port{others},\n"
-        "and quiet with that energy and at least half of K shown (usable); bars: mean over B",
-        fontsize="medium",
-    )
+    figure.suptitle(_title(found, criteria), fontsize="medium")
     return figure
 
 
-def _borders(ax: Axes, found: ZWidth, criterion: str, d: int) -> None:
+def _title(found: ZWidth, criteria: list[str]) -> str:
+    parts = formatting.describe(found.base).split("; ")
+    energy = f"{1e3 * found.epsilon:g} mJ drawn"
+    if found.hands:
+        energy += f" ({found.random_hands} included)"
+    means = {
+        "usable": f"usable: quiet, at most {energy}, half of K shown",
+        "energy": "" if "usable" in criteria else f"at most {energy}",
+        "quiet": "quiet: still, with a quiet force",
+        "still": "still: no limit cycle",
+    }
+    lines = [
+        f"Z-width, simulated: {parts[0]}; {parts[1]}; {1e-3 / found.base.timing.dt:g} kHz",
+        "; ".join(
+            ["hardest wall K by wall damping B", *filter(None, (means[c] for c in criteria))]
+        ),
+    ]
+    return "\n".join(lines)
+
+
+def _borders(ax: Axes, found: ZWidth, criterion: str, d: int, height: float) -> None:
+    ax.set_ylim(1e-3 * found.least_stiffness, 1.3e-3 * found.most_stiffness)
+    ax.set_yscale("log")  # after the limits: it finds none where all lines lie at the top
+    low, high = np.log(ax.get_ylim())
+    step = float(np.exp(-(high - low) * 1.3 * WIDTH / (72 * 0.8 * height)))  # labels take a fifth
+    drawn = _kilo(found.limits[criterion][:, d])
     shades = colours(found.laws)
-    for i, (law, shade) in enumerate(shades.items()):
-        none = not any(found.limits[name][i].any() for name in ROWS)
-        ax.plot([], [], color=shade, lw=WIDTH, label=f"{law} (none)" if none else law)
-    drawn = [_kilo(found.limits[criterion][i, d]) for i in range(len(shades))]
-    draw_shared(ax, found.dampings, drawn, list(shades.values()), WIDTH)
+    for i, (law, border) in enumerate(zip(shades, side_by_side(drawn, step), strict=True)):
+        none = not any(found.limits[name][i].any() for name in LABELS)
+        ax.plot(
+            found.dampings, border, color=shades[law], lw=WIDTH, marker=MARKS[i % len(MARKS)], ms=MARK, mew=0,
+            label=f"{law} (none)" if none else law,
+        )  # fmt: skip
     ax.axhline(
         1e-3 * found.most_stiffness,
         color="0.6",
@@ -111,8 +166,6 @@ def _borders(ax: Axes, found: ZWidth, criterion: str, d: int) -> None:
         CEILINGS.get(criterion, {}).items(), _ceilings(found, criterion, d), strict=True
     ):
         ax.plot(dampings, _kilo(ceiling), **style, label=name)
-    ax.set_ylim(1e-3 * found.least_stiffness, 1.3e-3 * found.most_stiffness)
-    ax.set_yscale("log")  # after the limits: it finds none where all lines lie at the top
     ax.yaxis.set_major_formatter("{x:g}")
     ax.xaxis.set_major_locator(MaxNLocator(5))
     ax.xaxis.set_major_formatter("{x:g}")

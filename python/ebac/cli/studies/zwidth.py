@@ -161,6 +161,7 @@ def _fill(draft: Path, found: ZWidth, to: ResultOptions) -> None:
     from ebac.plot import plot_zwidth
 
     to.save(plot_zwidth(found), draft, "zwidth")
+    to.save(plot_zwidth(found, ("quiet", "still")), draft, "zwidth-still")
     output.csv_table(draft / "zwidth.csv", found.rows())
     output.csv_table(draft / "scores.csv", found.scores())
     output.csv_table(draft / "vibration.csv", found.vibrations())
