@@ -18,7 +18,7 @@ FIRST_WALL = README.parent / "docs/tutorials/first_wall.md"
 
 def table() -> list[list[str]]:
     """Return the cells of the table of four laws, seven rows of numbers for each wall."""
-    rows = re.findall("^" + 5 * r"\|([^|]+)" + r"\|$", README.read_text(), re.M)
+    rows = re.findall("^" + 5 * r"\|([^|\n]+)" + r"\|$", README.read_text(), re.M)
     return [[cell.strip() for cell in cells] for cells in rows][2:]
 
 

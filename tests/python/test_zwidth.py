@@ -327,7 +327,7 @@ def test_borders_that_coincide_all_remain_visible_and_a_law_without_one_is_named
     panel = plot_zwidth(three).axes[0]
     assert panel.get_title(loc="left") == "no wall: ebac"
     first, second = (np.asarray(line.get_ydata(), float) for line in panel.lines[:2])
-    assert np.allclose(1e3 * first, found.top)
+    assert np.allclose(1e3 * first, found.most_stiffness)
     assert (second < 0.99 * first).all()
     assert (second > 0.8 * first).all()
 
