@@ -162,7 +162,6 @@ def test_a_law_with_tuned_parameters_is_explained() -> None:
     wall = ("wall", "--no-files", "--seconds", "0.1", "--law")
     text = told(*wall, "tca-damped-tuned,ebac")
     assert "Note: tca-damped-tuned is tca-damped with the parameters that `ebac tune` found" in text
-    assert "--observer-every-law" not in text
-    text = told(*wall, "tca-damped-tuned-observer", "--observer-every-law")
-    assert "acting on the observer's estimate: use it with --observer-every-law" in text
+    text = told(*wall, "tca-damped-tuned-observer")
+    assert "acting on the observer's estimate" in text
     assert "Note" not in told(*wall, "ebac")

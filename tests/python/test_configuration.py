@@ -227,7 +227,7 @@ def test_without_a_sensor_nothing_is_fed_back() -> None:
     felt = Configuration.from_toml("[sensor]\nhost = '10.0.0.1'\n")
     assert felt.sensor is not None
     assert felt.design().kp > 0  # type: ignore[attr-defined]
-    with pytest.raises(ValueError, match="no force sensor is configured"):
+    with pytest.raises(ValueError, match="the device has no force sensor"):
         designed("tca", {"kp": 0.2}, known.device, known.timing, sensor=False)
 
 
