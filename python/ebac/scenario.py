@@ -10,26 +10,21 @@ from pathlib import Path
 from typing import Any, Final, Literal, Self, TypeAlias
 
 from ebac._core import (
-    Box,
-    Capsule,
     Corner,
-    Cylinder,
     Device,
     Disc,
     Free,
     Hand,
     Observer,
-    Plane,
     Setup,
-    Sphere,
     Step,
     Timing,
-    Torus,
     Wall,
     _World,
 )
 from ebac._util.arguments import keywords_only, refuse_unknown, require, require_path, shown
 from ebac._util.copying import refuse_uncopyable
+from ebac._util.serialisation import SHAPES
 from ebac._util.text_file import read_text
 from ebac._util.toml_lines import located
 from ebac.hands import as_hand, is_own
@@ -47,8 +42,6 @@ def __dir__() -> list[str]:
 
 Environment: TypeAlias = Free | Wall | Corner | Disc | _World
 
-_SOLIDS = (Box, Capsule, Cylinder, Plane, Sphere, Torus)
-
 #: The observer that every law acts on.
 EVERY_LAW: Final = "every-law"
 #: What its numbers are.
@@ -58,7 +51,7 @@ _PARTS = ("device", "hand", "environment", "timing", "seconds", "jitter", "seed"
 
 def as_environment(given: Any) -> Any:
     """Return the world of a solid or body of `ebac.worlds`, and anything else as it is."""
-    if not type(given).__module__.startswith("ebac.worlds") and not isinstance(given, _SOLIDS):
+    if not type(given).__module__.startswith("ebac.worlds") and not isinstance(given, SHAPES):
         return given
     from ebac.worlds import World
 

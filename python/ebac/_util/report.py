@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from ebac._util import formatting
+from ebac._util.plural import plural
 
 #: Rows of a table; longer ones are cut in the middle. With several tables each has fewer, but not below the fewest.
 MOST_ROWS, FEWEST_ROWS = 12, 4
@@ -93,11 +94,6 @@ def _table(rows: Sequence[Mapping[str, Any]], most: int, more: str = "") -> list
     if len(shown) < len(rows):
         lines.insert(1 + half, f"  ... {len(rows) - len(shown)} more rows ...")
     return lines
-
-
-def plural(count: int, noun: str) -> str:
-    """Return "1 law" or "3 laws"."""
-    return f"{count} {noun}" if count == 1 else f"{count} {noun}s"
 
 
 def aligned(columns: Sequence[Sequence[str]], more: str = "") -> list[str]:

@@ -14,9 +14,11 @@ from ebac import _core
 from ebac._util.arguments import unknown
 from ebac._util.signatures import refuse_names
 
+#: Solids of the core.
+SHAPES = (_core.Box, _core.Capsule, _core.Cylinder, _core.Plane, _core.Sphere, _core.Torus)
 #: Solids of a world.
 SOLIDS: tuple[type | str, ...] = (
-    _core.Box, _core.Capsule, _core.Cylinder, _core.Plane, _core.Sphere, _core.Torus,
+    *SHAPES,
     *(f"ebac.worlds.{name}" for name in (
         "Placed", "Cavity", "Textured", "Tube", "Union", "Intersection", "Difference", "Mesh", "HeightField",
     )),

@@ -11,13 +11,13 @@ from typing import TYPE_CHECKING, Annotated, TypeAlias
 import typer
 
 from ebac._util.arguments import unknown
+from ebac._util.figure_formats import FORMATS
 from ebac.cli import output
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 PANEL = "Results"
-FORMATS = ("png", "pdf", "svg")
 
 Force: TypeAlias = Annotated[
     bool,

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Annotated, Any, NoReturn, TypeAlias
 
 import typer
 
+from ebac._util.plural import plural as plural
 from ebac._util.row_files import csv_table as csv_table
 from ebac._util.row_files import document as document
 from ebac.cli.tables import filled as filled
@@ -152,11 +153,6 @@ def words(given: Iterable[str] | None) -> list[str]:
     """Return the words of lists separated by commas, each once."""
     parts = (part.strip() for text in given or () for part in text.split(","))
     return list(dict.fromkeys(part for part in parts if part))
-
-
-def plural(count: int, one: str, many: str = "") -> str:
-    """Return a number with its noun: 1 axis, 2 axes."""
-    return f"{count:,} {one if count == 1 else many or one + 's'}"
 
 
 def indented(text: str) -> None:

@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 from itertools import groupby
 from pathlib import Path
 
+from ebac._util.progress import Progress
 from ebac.drives.aborts import READ_ONLY
 from ebac.drives.backup import Backups
 from ebac.drives.drive import Drive
@@ -22,9 +23,6 @@ _SAVE = b"save"
 
 #: How often what a drive holds is read and written again, where one value changes others.
 _ROUNDS = 3
-
-#: Called after every write: how many are done, of how many.
-Progress = Callable[[int, int], None]
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ebac.identify.device_problem import (
+    FITTED,
     Drive,
     Guess,
     columns_of,
@@ -16,7 +17,7 @@ from ebac.identify.device_problem import (
     driven,
     first_guess,
 )
-from ebac.identify.device_result import NAMES, DeviceResult, scale
+from ebac.identify.device_result import DeviceResult, scale
 from ebac.identify.fit import Fitted, fitted
 from ebac.identify.joint import usual_lever
 from ebac.identify.limits import at_limits
@@ -30,7 +31,7 @@ SPEEDS, PASSED = np.geomspace(2e-3, 0.1, 8), 0.5
 BELIEVED, GAIN = 4.0, 20.0
 #: A search starts from at least this mass [kg] and damping [N s/m]: from less the model runs away.
 LEAST_START = (0.02, 0.1)
-#: So many of `NAMES` every device has.
+#: So many of `FITTED` every device has.
 FEWEST = 4
 #: Rows that leave this share of the unexplained force to the others contradict them.
 LESS = 1 / 3
@@ -116,7 +117,7 @@ def _believed(recording: Recording, current_lag: float, lever: float | None = No
         return result
     apart = any(
         abs(one.value - two.value) > 0.5 * np.hypot(one.high - one.low, two.high - two.low)
-        for one, two in ((result.estimates[n], other.estimates[n]) for n in NAMES[:FEWEST])
+        for one, two in ((result.estimates[n], other.estimates[n]) for n in FITTED[:FEWEST])
     )
     if apart or 1 - other.explained < LESS * (1 - result.explained):
         return replace(other, cut_rows=int(cut.sum()))
@@ -147,7 +148,7 @@ def _searched(
     return DeviceResult(
         recording=recording,
         drive=drive,
-        names=NAMES[: len(best.values)],
+        names=FITTED[: len(best.values)],
         values=best.values,
         covariance=best.covariance,
         stribeck_speed=speed,

@@ -39,6 +39,7 @@ WHATEVER = 100.0
 #: A force jumps where it bends by this many deviations of its noise; a tick may miss this share of it, for this many
 #: rows before and after.
 NOISY, JUMP, FELT = 5.0, 0.5, 4
+#: What is fitted, in this order; `stribeck` not always.
 FITTED = ("M_h", "B_h", "coulomb", "weight", "stribeck")
 
 

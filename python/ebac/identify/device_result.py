@@ -20,7 +20,6 @@ from ebac.identify.validation import flip_advice, seems_flipped
 
 #: Standard gravity [m/s^2].
 GRAVITY = 9.80665
-NAMES = ("M_h", "B_h", "coulomb", "weight", "stribeck")
 UNITS = ("kg", "N s/m", "N", "N", "N")
 ROTARY_UNITS = ("kg m^2", "N m s/rad", "N m", "N m", "N m")
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from ebac._util.report import plural
+from ebac._util.plural import plural
 from ebac.identify.files import Columns
 from ebac.identify.recording import LEAST_ROWS
 

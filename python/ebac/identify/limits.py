@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ebac._util.arrays import Values
-from ebac._util.report import plural
+from ebac._util.plural import plural
 
 if TYPE_CHECKING:
     from ebac.identify.recording import Recording

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from ebac._util.arguments import number, require_path, unknown
-from ebac._util.report import plural
+from ebac._util.plural import plural
 from ebac._util.text_file import says_simulated
 from ebac.identify.columns import QUANTITIES, assign, listed
 from ebac.identify.files import Columns, Table, archive_of, read_columns

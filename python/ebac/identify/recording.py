@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ebac._util.arguments import number, require, shown, unknown
-from ebac._util.report import plural
+from ebac._util.plural import plural
 from ebac._util.wrong_calls import plain_constructor
 from ebac.identify.of_trace import signals_of, trace_facts
 

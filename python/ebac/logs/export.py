@@ -2,18 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ebac._util.progress import Progress
 from ebac.scenario_text import text_for_file
 
 if TYPE_CHECKING:
     from ebac.trace import Trace
 
-Progress = Callable[[int, int], None]
 
 #: Names of MATLAB are at most this long.
 MATLAB_NAME = 63

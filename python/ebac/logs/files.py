@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ebac._util.arguments import require_path
+from ebac._util.progress import Progress
 from ebac.logs.about import SIMULATED_DRIVES, SIMULATED_FILE, About
 from ebac.logs.layout import Layout
 from ebac.scenario_text import warn_without_text
@@ -18,7 +19,6 @@ from ebac.scenario_text import warn_without_text
 if TYPE_CHECKING:
     from ebac.trace import Trace
 
-Progress = Callable[[int, int], None]
 
 #: Rows of a chunk in a log written at once: some 0.5 MB.
 CHUNK_ROWS = 2048

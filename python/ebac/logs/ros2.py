@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, BinaryIO
 
 from numpy.typing import NDArray
 
+from ebac._util.progress import Progress
 from ebac.logs.about import About
 from ebac.logs.columns import Columns
 from ebac.logs.events import Event
@@ -21,8 +22,6 @@ from ebac.logs.ros2_messages import EVENTS, TYPES, log_message, topics
 
 if TYPE_CHECKING:
     from ebac.trace import Trace
-
-Progress = Callable[[int, int], None]
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -1,5 +1,6 @@
 """Figures of traces and studies; they use no global state of pyplot, so any thread may draw."""
 
+from ebac._util.figure_formats import FORMATS
 from ebac.plot.ablation import plot_ablation
 from ebac.plot.columns import plot_columns
 from ebac.plot.engines import plot_engines
@@ -10,7 +11,7 @@ from ebac.plot.maps import plot_map
 from ebac.plot.overlay import plot_overlay
 from ebac.plot.random_worlds import plot_random_worlds
 from ebac.plot.run import plot_trace
-from ebac.plot.save import FORMATS, WIDTHS, save
+from ebac.plot.save import WIDTHS, save
 from ebac.plot.shapes import plot_shapes
 from ebac.plot.stiffest import plot_stiffest
 from ebac.plot.study import plot_study

@@ -20,11 +20,10 @@ from matplotlib.spines import Spine
 from matplotlib.text import Text
 
 from ebac._util.arguments import require
+from ebac._util.figure_formats import FORMATS
 from ebac.plot.legends import LETTERS, fit_legends
 from ebac.plot.style import DPI
 
-#: Formats of a figure's file.
-FORMATS = ("png", "pdf", "svg")
 #: Widths of a journal's columns [mm].
 WIDTHS = {"single": 89.0, "double": 183.0}
 #: Dots per inch of a PNG for a journal.

@@ -13,13 +13,13 @@ import numpy as np
 
 from ebac._util.arguments import named, require, several, whole
 from ebac._util.cores import thread_count
+from ebac._util.progress import Progress
 from ebac.laws import AnyLaw, CoreLaw, PythonLaw, design, reserve_of
 from ebac.metrics.energy_drawn import drawn
 from ebac.scenario import Scenario
 from ebac.studies.hand_search import every_row
 from ebac.studies.random_scenario import DEVICES, random_scenario
 from ebac.studies.random_worlds_result import HELD_BACK, HandRun, RandomWorldRow, RandomWorlds
-from ebac.studies.sweeps.job import Progress
 from ebac.studies.sweeps.run import Laws, name_laws
 from ebac.studies.world_kinds import KINDS
 from ebac.tuned_laws import on_its_observer

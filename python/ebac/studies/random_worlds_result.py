@@ -159,7 +159,8 @@ class RandomWorlds:
 
     def __repr__(self) -> str:
         """Return the rows with their units."""
-        from ebac._util.report import plural, report
+        from ebac._util.plural import plural
+        from ebac._util.report import report
 
         shown = (
             "kind", "device", "stiffness_N_per_m", "delay_samples", "law", "held_back",

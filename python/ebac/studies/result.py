@@ -193,7 +193,8 @@ class Study:
 
     def __repr__(self) -> str:
         """Return a row per law and condition."""
-        from ebac._util.report import plural, report
+        from ebac._util.plural import plural
+        from ebac._util.report import report
 
         counts = (
             plural(len(self.operators), "hand"),

@@ -13,12 +13,12 @@ from numpy.typing import NDArray
 from ebac import _core
 from ebac._util.arguments import require
 from ebac._util.cores import thread_count
+from ebac._util.progress import Progress
 from ebac.operators import Operators
 from ebac.scenario import Scenario
 from ebac.studies.conditions import Condition
 from ebac.studies.conditions import conditions as find
 from ebac.studies.result import Study
-from ebac.studies.sweeps.job import Progress
 from ebac.studies.sweeps.run import Laws, name_laws, seed_of, sweep
 
 #: Laws that are compared unless others are given.

@@ -10,13 +10,13 @@ from typing import Any
 from ebac._util import formatting
 from ebac._util.arguments import require
 from ebac._util.cores import thread_count
+from ebac._util.progress import Progress
 from ebac.laws import AnyLaw, design, law_name, reserve_of
 from ebac.scenario import Scenario
 from ebac.studies.conditions import Condition, conditions
 from ebac.studies.families import PULL, families, find_family
 from ebac.studies.hand_search import HandSearch, WorstHand, every_row
 from ebac.studies.scenario_changes import truth
-from ebac.studies.sweeps.job import Progress
 from ebac.trace import Trace
 from ebac.tuned_laws import on_its_observer
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import hashlib
 import os
 import tempfile
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
 from dataclasses import dataclass, fields
@@ -19,9 +19,9 @@ from numpy.typing import NDArray
 
 from ebac import _core
 from ebac._util.arrays import Values
+from ebac._util.progress import Progress
 
 Ints = NDArray[np.int64]
-Progress = Callable[[int, int], None]
 
 #: Cells of a brick along each edge, as the core has them.
 BRICK = 8

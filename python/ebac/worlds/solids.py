@@ -10,13 +10,13 @@ from numpy.typing import ArrayLike, NDArray
 
 from ebac import _core
 from ebac._core import Box, Capsule, Cylinder, Plane, Sphere, Texture, Torus
+from ebac._util.serialisation import SHAPES
 from ebac._util.wrong_calls import plain_constructor
 from ebac.worlds.height_field import HeightField
 from ebac.worlds.mesh import Mesh
 from ebac.worlds.part import Part, array, three
 
 Shape: TypeAlias = Box | Capsule | Cylinder | Plane | Sphere | Torus
-_SHAPES = (Box, Capsule, Cylinder, Plane, Sphere, Torus)
 #: Solids within each other: each costs a call of its own in every tick.
 DEEPEST = 64
 
@@ -201,7 +201,7 @@ Solid: TypeAlias = (
     | HeightField
 )
 SOLIDS = (
-    *_SHAPES, Placed, Cavity, Textured, Tube, Union, Intersection, Difference, Mesh, HeightField,
+    *SHAPES, Placed, Cavity, Textured, Tube, Union, Intersection, Difference, Mesh, HeightField,
 )  # fmt: skip
 
 

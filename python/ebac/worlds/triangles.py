@@ -8,7 +8,8 @@ import numpy as np
 
 from ebac._util import formatting
 from ebac._util.arguments import number
-from ebac.worlds.grid import Grid, Progress, Surface, cached_grid
+from ebac._util.progress import Progress
+from ebac.worlds.grid import Grid, Surface, cached_grid
 from ebac.worlds.part import Part
 
 #: Cells along the longest side, unless given.

@@ -27,8 +27,8 @@ from ebac.cli.drive.options import (
 )
 
 if TYPE_CHECKING:
+    from ebac._util.progress import Progress
     from ebac.drives import Applied, Backups, Drive, Node
-    from ebac.drives.apply import Progress
 
     Row = dict[str, Any]
     Work = Callable[[Progress], Applied]

@@ -10,12 +10,12 @@ import numpy as np
 
 from ebac._util.arguments import require, unknown
 from ebac._util.arrays import Values
+from ebac._util.progress import Progress
 from ebac.laws import AnyLaw
 from ebac.scenario import Scenario
 from ebac.studies.maps.axes import AXES, MapAxis
 from ebac.studies.maps.result import StabilityMap
 from ebac.studies.sweeps import sweep
-from ebac.studies.sweeps.job import Progress
 from ebac.studies.sweeps.run import name_laws
 
 #: Values along an axis where none are given.

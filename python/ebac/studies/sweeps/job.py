@@ -2,17 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from concurrent.futures import Executor, Future, as_completed
-from typing import TypeAlias
 
 from ebac._core import RunLimits
 from ebac._util.background import Background
 from ebac._util.cores import usable_cores
+from ebac._util.progress import Progress
 from ebac.studies.sweeps.measure import Columns, Run, Watch, empty, measure
 from ebac.studies.sweeps.store import Store
-
-Progress: TypeAlias = Callable[[int, int], None]
 
 #: How often progress is looked at [s].
 LOOK = 0.05

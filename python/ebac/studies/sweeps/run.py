@@ -12,9 +12,10 @@ import numpy as np
 
 from ebac._core import Device, DeviceFacts, RunLimits, Timing
 from ebac._util.arguments import require
+from ebac._util.progress import Progress
 from ebac.laws import AnyLaw, design, law_name
 from ebac.scenario import Scenario
-from ebac.studies.sweeps.job import Job, Progress
+from ebac.studies.sweeps.job import Job
 from ebac.studies.sweeps.measure import Columns, Run
 from ebac.studies.sweeps.parameters import swept
 from ebac.studies.sweeps.result import SweepResult

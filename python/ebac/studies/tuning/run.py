@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 from ebac._util.arguments import shown, unknown_name
+from ebac._util.progress import Progress
 from ebac.laws import LAWS, AnyLaw, Variant
 from ebac.operators import Operators
 from ebac.scenario import Scenario
 from ebac.studies.conditions import Condition
 from ebac.studies.conditions import conditions as find
 from ebac.studies.study import study
-from ebac.studies.sweeps.job import Progress
 from ebac.studies.tuning.ranges import RANGES, Range, Ranges
 from ebac.studies.tuning.result import Tuned, TuningInterrupted, rows_of
 from ebac.studies.tuning.search import Search

@@ -75,7 +75,7 @@ class ZWidth:
     @property
     def random_hands(self) -> str:
         """How many random hands of all families there were, as "210 random hands"; empty for none."""
-        from ebac._util.report import plural
+        from ebac._util.plural import plural
         from ebac.studies.families import PULL, families
 
         return plural(self.hands * len(families(PULL)), "random hand") if self.hands else ""
@@ -158,7 +158,8 @@ class ZWidth:
 
     def __repr__(self) -> str:
         """Return the stiffest wall of each law by criterion, its mean over the wall damping."""
-        from ebac._util.report import plural, report
+        from ebac._util.plural import plural
+        from ebac._util.report import report
 
         width = float(self.dampings[-1] - self.dampings[0])
         rows = [
