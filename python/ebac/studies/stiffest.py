@@ -16,13 +16,13 @@ from numpy.typing import NDArray
 from ebac._core import Wall
 from ebac._util import row_files
 from ebac._util.arguments import require, require_path, several
+from ebac._util.progress import Progress
 from ebac.laws import LAWS
 from ebac.operators import Operators
 from ebac.scenario import Scenario
 from ebac.studies.conditions import wall_of
 from ebac.studies.result import Study
 from ebac.studies.study import study
-from ebac.studies.sweeps.job import Progress
 from ebac.studies.sweeps.run import Laws
 
 if TYPE_CHECKING:
