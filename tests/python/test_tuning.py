@@ -3,6 +3,7 @@
 import json
 import math
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -136,6 +137,32 @@ def test_the_force_counts_as_the_position_does() -> None:
     assert not felt["force_quiet"][0]
     alone = ebac.SweepResult({name: values[:1] for name, values in felt.columns.items()})
     assert tuning.cost_of(alone) > 1
+
+
+def found(**now: Any) -> tuning.Tuned:
+    design = tuning.TunedRow(
+        condition="d1K10", hands=60, good=60, exact_and_still=60, median_settled_s=0.1,
+        least_energy_J=0.0, most_drawn_J=0.0028, force_swing_N=0.0,
+    )  # fmt: skip
+    return tuning.Tuned(
+        law="eba", delay=1, observer=False, changes={}, tried=20, cost=0.1, default_cost=0.2,
+        test=(replace(design, **now),), default=(design,),
+    )  # fmt: skip
+
+
+def test_a_tuned_law_that_does_worse_than_its_design_says_so(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    assert not found(most_drawn_J=0.0279).worse  # ten times at most
+    assert not found(most_drawn_J=0.0, good=60).worse
+    assert len(found(good=59).worse) == 1
+    (line,) = found(good=59, most_drawn_J=0.36).worse
+    assert line == (
+        "eba, d1K10: worse than the design on the test hands: good 60 -> 59 of 60, drawn 2.80 mJ -> 360.00 mJ"
+    )
+    monkeypatch.setattr("ebac.studies.tune", lambda *_, **__: [found(good=59, most_drawn_J=0.36)])
+    done = CliRunner().invoke(app, ["tune", "eba", "--condition", "d1K10"])
+    assert "keep the design" in " ".join(done.output.split())
 
 
 def test_a_law_is_tuned_for_the_observer_when_it_acts_on_one() -> None:

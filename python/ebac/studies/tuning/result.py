@@ -7,8 +7,12 @@ from typing import Any
 
 import numpy as np
 
+from ebac._util.formatting import quantity
 from ebac.laws import Variant, shown_value
 from ebac.studies.result import Study
+
+#: What is much more energy drawn than by the design: this many times as much, and at least this much more [J].
+MUCH_MORE, AT_LEAST = 10, 1e-3
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -72,6 +76,23 @@ class Tuned:
     default_cost: float
     test: tuple[TunedRow, ...]
     default: tuple[TunedRow, ...]
+
+    @property
+    def worse(self) -> tuple[str, ...]:
+        """Where the design does better on the test hands, in words, one per condition.
+
+        Fewer hands are good, or more than ten times the energy is drawn, and at least 1 mJ more.
+        """
+        found = []
+        for design, tuned in zip(self.default, self.test, strict=True):
+            before, now = design.most_drawn_J or 0.0, tuned.most_drawn_J or 0.0
+            drawn = now > MUCH_MORE * before and now - before > AT_LEAST
+            if drawn or tuned.good < design.good:
+                found.append(
+                    f"{self.law}, {tuned.condition}: worse than the design on the test hands: good {design.good} -> "
+                    f"{tuned.good} of {tuned.hands}, drawn {quantity(before, 'J')} -> {quantity(now, 'J')}"
+                )
+        return tuple(found)
 
     @property
     def variant(self) -> Variant:
