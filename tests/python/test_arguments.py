@@ -48,6 +48,16 @@ has = "; it has: device, hand, environment, timing, seconds, jitter, seed, obser
             "(a device's own: ebac.simulate), not True (bool)",
         ),
         (
+            lambda: ebac.Device(encoder=None),  # type: ignore[arg-type]
+            "Device.encoder = None: is of the wrong kind; leave it out for the default",
+        ),
+        (
+            lambda: ebac.Encoder(resolution=1e-5),  # type: ignore[call-arg]
+            "Encoder has no parameter 'resolution': give counts_per_turn, of the motor: 2 pi x drum_radius x radius / "
+            "sector_radius / (one count at the handle in m); for 10 um on the reference device 2 pi x 0.005 x 0.1 / "
+            "0.1 / 10e-6 = 3142; it has: counts_per_turn, counter_bits",
+        ),
+        (
             lambda: ebac.zwidth(base="x"),  # type: ignore[arg-type]
             "ebac.zwidth takes a Scenario as its base, not 'x' (str)",
         ),

@@ -82,7 +82,9 @@ def wall_rows(*words: str) -> dict[str, dict[str, Any]]:
         (0.0011841, "m", "1.184 mm"),
         (3.0679615e-5, "m", "0.0307 mm"),
         (-1e-12, "m", "0 mm"),
-        (-5.6057, "J", "-5606 mJ"),
+        (-5.6057, "J", "-5.61 J"),
+        (58.314, "J", "58.31 J"),
+        (0.9994, "J", "999.40 mJ"),
         (10.6, "N", "10.60 N"),
         (0.0622, "share", "6 %"),
         (1, "share", "100 %"),
@@ -331,6 +333,7 @@ def test_a_fault_is_told_and_its_log_kept(monkeypatch: pytest.MonkeyPatch, tmp_p
         ("wall --hand-damping -1", "--hand-damping = -1 N s/m"),
         ("wall --hand-target 11", "--hand-target = 11 m"),
         ("wall --device-noise -1", "--device-noise = -1 N"),
+        ("wall --device-counts 2 --law ebac", "give more counts per turn, --device-counts"),
         (
             "wall --device-noise 30",
             "--device-noise = 30 N: must lie in [0, 10] N, as EBAC.force_noise follows",

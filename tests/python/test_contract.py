@@ -168,6 +168,16 @@ def test_what_a_python_law_raises_ends_the_run_by_its_name() -> None:
     assert (error.trace["f_cmd"][:10] == 1).all()
 
 
+def test_a_law_that_asks_a_port_for_what_it_has_not_is_told_what_it_has() -> None:
+    class Wrong(After):
+        def step(self, port: ebac.Port) -> float:
+            return port.force  # type: ignore[attr-defined,no-any-return]
+
+    text = str(fault_of(ebac.Scenario(seconds=0.5), Wrong(0, 0.0)))
+    assert "a port has no 'force', did you mean 'f_meas' or 'f_env'; it has: " in text
+    assert "world_v, x" in text
+
+
 def test_what_the_reset_of_a_python_law_raises_ends_the_run_by_its_name() -> None:
     class NoReset(After):
         name = "unset"

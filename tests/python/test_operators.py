@@ -143,7 +143,10 @@ def test_csv_and_dataframe_and_back(tmp_path: Path) -> None:
         ("", "the file is empty"),
         (HEADING, "population is empty"),
         ("m_kg,b_Ns_per_m,k_N_per_m\n1,2,3\n", "column target_m is missing"),
-        ("m_kg,b_Ns_per_m,k_N_per_m,target_m,mass\n1,2,3,.1,1\n", "column mass: no such name"),
+        (
+            "m_kg,b_Ns_per_m,k_N_per_m,target_m,mass\n1,2,3,.1,1\n",
+            "column mass: no such name, did you mean 'm_kg'",
+        ),
         ("m_kg,m_kg,k_N_per_m,target_m\n1,2,3,.1\n", "column m_kg stands there twice"),
         (HEADING + "1,2,3,.1\n1,2\n", "row 2 has 2 values, the heading 4"),
         (

@@ -254,6 +254,20 @@ def test_a_wrong_document_is_refused_and_the_message_says_where(text: str, messa
         ebac.Scenario.from_toml(text)
 
 
+@pytest.mark.parametrize(
+    ("key", "remedy"),
+    [
+        ("mass", "give handle_mass in [device.mechanics] without the rotor's share; it has"),
+        ("damping", "'damping': give damping in [device.mechanics]; it has"),
+    ],
+)
+def test_a_file_is_told_its_own_table_not_python(key: str, remedy: str, tmp_path: Path) -> None:
+    path = tmp_path / "device.toml"
+    path.write_text(f"[device]\n{key} = 0.3\n")
+    with pytest.raises(ValueError, match=re.escape(remedy)):
+        ebac.Scenario.load(path)
+
+
 def test_the_message_names_the_file(tmp_path: Path) -> None:
     path = tmp_path / "bad.toml"
     path.write_text("secnds = 1")

@@ -27,6 +27,10 @@ LISTED_BY = {
 FEW = 8
 
 _MASS = "it is the sum of handle and rotor, give mechanics=ebac.Mechanics(handle_mass=...) without the rotor's share"
+_RESOLUTION = (
+    "give counts_per_turn, of the motor: 2 pi x drum_radius x radius / sector_radius / (one count at the handle in m); "
+    "for 10 um on the reference device 2 pi x 0.005 x 0.1 / 0.1 / 10e-6 = 3142"
+)
 _DAMPING = (
     "its damping is another thing, a lower bound of the physical damping of the device, and too high a value lets the "
     "law give out energy that nobody has put in"
@@ -42,6 +46,7 @@ ELSEWHERE = {
     ("Device", "damping"): "give mechanics=ebac.Mechanics(damping=...)",
     ("Device", "count"): "give encoder=ebac.Encoder(counts_per_turn=...), of the motor",
     ("Encoder", "count"): "give counts_per_turn, of the motor; device.count is that at the handle",
+    ("Encoder", "resolution"): _RESOLUTION,
     ("Timing", "rate"): "give dt, 1/rate",
     ("Mesh", "path"): "did you mean 'file'",
 }
@@ -157,7 +162,9 @@ def did_you_mean(name: object, known: Iterable[str], meant: Sequence[str] = ()) 
     return f", did you mean {f'{before} or {last}' if before else last}" if quoted else ""
 
 
-def unknown(where: str, name: str, known: Iterable[str], kind: str = "") -> str:
+def unknown(
+    where: str, name: str, known: Iterable[str], kind: str = "", meant: Sequence[str] = ()
+) -> str:
     """Return the message for a name that does not exist: the nearest that do, and where all are listed.
 
     Parameters
@@ -170,9 +177,11 @@ def unknown(where: str, name: str, known: Iterable[str], kind: str = "") -> str:
         All that could have been given.
     kind : str
         What has names of this kind, as in `LISTED_BY`.
+    meant : sequence of str
+        Names it may stand for.
     """
     names = list(known)
-    return f"{where}: no such name{did_you_mean(name, names)}; {_all(names, kind)}"
+    return f"{where}: no such name{did_you_mean(name, names, meant)}; {_all(names, kind)}"
 
 
 def named(kind: str, name: object, known: Mapping[str, Value]) -> Value:

@@ -44,7 +44,7 @@ QUANTITY_OF = {"m": "position", "m/s": "velocity", "N": "force", "N/m": "stiffne
 
 
 def quantity(value: float | None, unit: str, *, signed: bool = False, none: str = "-") -> str:
-    """Return a number with its unit as people read it: 0.00123 m is "1.230 mm".
+    """Return a number with its unit as people read it: 0.00123 m is "1.230 mm", 58.3 J is "58.30 J", not in mJ.
 
     Parameters
     ----------
@@ -62,10 +62,16 @@ def quantity(value: float | None, unit: str, *, signed: bool = False, none: str 
         return none
     if unit == "threshold":
         value, unit = vibration_shown(value), "1"
-    factor, shown, decimals = SHOWN.get(unit, (1, "" if unit == "1" else unit, 3))
+    if unit == "J" and abs(value) >= 1:
+        return f"{_number(value, 2, 0, signed, exact=False)} J"
+    return f"{_converted(value, unit, signed)} {'' if unit == '1' else shown(unit)}".rstrip()
+
+
+def _converted(value: float, unit: str, signed: bool = False) -> str:
+    """Return a number in the unit of `shown`, without it."""
+    factor, _, decimals = SHOWN.get(unit, (1, "", 3))
     more = 1 if unit in ("m", "J") else 3
-    text = _number(value * factor, decimals, more, signed, exact=unit not in SHOWN)
-    return f"{text} {shown}".rstrip()
+    return _number(value * factor, decimals, more, signed, exact=unit not in SHOWN)
 
 
 def shown(unit: str) -> str:
@@ -75,7 +81,9 @@ def shown(unit: str) -> str:
 
 def cell(value: float | None, unit: str, *, none: str = "-") -> str:
     """Return a number in the unit of `shown`, without it: what stands below a heading that has the unit."""
-    return quantity(value, unit, none=none).removesuffix(f" {shown(unit)}")
+    if value is None or not isfinite(value):
+        return none
+    return _converted(vibration_shown(value) if unit == "threshold" else value, unit)
 
 
 def listed(title: str, result: Any, lines: Iterable[tuple[str, str, str, str]]) -> str:

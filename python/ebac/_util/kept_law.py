@@ -7,9 +7,18 @@ import math
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any, cast
 
+from ebac._util.arguments import did_you_mean
+
 if TYPE_CHECKING:
     from ebac._core import Port
     from ebac.laws import PythonLaw
+
+#: What people call the fields of a port.
+_MEANT = {
+    "force": ("f_meas", "f_env"),
+    "position": ("x",),
+    "velocity": ("v",),
+}
 
 
 class KeptLaw:
@@ -34,6 +43,8 @@ class KeptLaw:
         try:
             return self._number(self._law.step(port))
         except BaseException as error:
+            if isinstance(error, AttributeError) and error.obj is port:
+                error.args = (_no_field(port, str(error.name)),)
             self._errors.append(error)
             return math.nan
 
@@ -57,6 +68,13 @@ class KeptLaw:
     def __deepcopy__(self, memo: dict[int, Any]) -> KeptLaw:
         """Return one with a copy of the law."""
         return KeptLaw(copy.deepcopy(self._law, memo), self._errors)
+
+
+def _no_field(port: Port, name: str) -> str:
+    """Return what a port has in place of a field that it has not."""
+    known = [one for one in dir(port) if not one.startswith("_")]
+    more = did_you_mean(name, known, _MEANT.get(name, ()))
+    return f"a port has no {name!r}{more}; it has: {', '.join(known)}"
 
 
 def law_error(errors: Sequence[BaseException]) -> Exception | None:

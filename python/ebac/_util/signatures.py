@@ -131,7 +131,12 @@ def _sentence(
         if isinstance(value, int) and not 0 <= value < 2**31:
             return f"{label}: {name} = {value}: does not fit into the integer it is kept in"
     must = "; ".join(f"{p.name} must be {_words(p.annotation)}" for p in takes if p.name in bound)
-    return f"{label} was called with wrong values: {must}"
+    if must:
+        return f"{label} was called with wrong values: {must}"
+    name = next((name for name, value in bound.items() if value is None), next(iter(bound), ""))
+    if not name:
+        return f"{label} cannot be called like this"
+    return f"{label}.{name} = {_short(bound[name])}: is of the wrong kind; leave it out for the default"
 
 
 def _short(value: Any) -> str:

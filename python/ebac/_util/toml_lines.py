@@ -16,6 +16,9 @@ _PLACE = re.compile(r"scenario((?:\.\w+|\[\d+\])+)")
 #: The key that it is about: "Motor.torque_constant = ...", "Motor has no parameter 'torqe_constant'".
 _KEY = re.compile(r"\b[A-Z]\w*\.([a-z]\w*)|has no parameter '(\w+)'")
 
+#: What a message says for Python: "give mechanics=ebac.Mechanics(damping=...)".
+_IN_PYTHON = re.compile(r"give (\w+)=ebac\.\w+\((\w+)=\.\.\.\)")
+
 
 def line_of(text: str, path: Path) -> int | None:
     """Return the line on which a key stands, from 1; None when it stands nowhere.
@@ -43,6 +46,7 @@ def located(file: object, text: str, message: str) -> str:
     """
     place, key = _PLACE.match(message), _KEY.search(message)
     begin, at = ("", "") if place is None else (f"{place[0]}: ", place[1].removeprefix(".") + ".")
+    message = _IN_PYTHON.sub(lambda found: f"give {found[2]} in [{at}{found[1]}]", message)
     parts = re.findall(r"\w+", at)
     table = tuple(int(part) if part.isdigit() else part for part in parts)
     line = None

@@ -43,6 +43,8 @@ def in_options(message: str) -> str:
     """Return what the library says of a value, by the name of the option that gave it."""
     message = message.replace("resume=False", "--force instead of --resume")
     message = message.replace("observer=True", "--observer")
+    if "--device-counts" in current.values() and re.match(r"\w+\.count = ", message):
+        message += "; it is the way of the handle per count of the encoder: give more counts per turn, --device-counts"
     message = re.sub(r"""columns=\{'(\w+)': (['"])(.*?)\2\}""", _column, message)
     for pattern in (r"(?:[\w ]+: )?([A-Za-z_.]+)(?= ?= )", r"(?:[a-z_]+: )?([a-z_]+)(?= \S+: )"):
         found = re.match(pattern, message)

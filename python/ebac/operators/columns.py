@@ -86,6 +86,12 @@ def _known(heading: str) -> tuple[str, float]:
     return heading, 1.0
 
 
+def meant(heading: str) -> list[str]:
+    """Return the column that a heading without a unit stands for, if one does."""
+    name = _STEMS.get(heading.strip().lower())
+    return [] if name is None else [name]
+
+
 def read_csv(path: str | Path) -> dict[str, list[str]]:
     """Return the columns of a CSV file by the names in its heading, as text; lines that start with # are left out.
 

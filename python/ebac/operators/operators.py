@@ -16,7 +16,15 @@ from ebac._core import Hand, Step, Wall
 from ebac._util.arguments import require, unknown, whole
 from ebac._util.need import need
 from ebac._util.wrong_calls import plain_constructor
-from ebac.operators.columns import APPROACH, OPERATOR_COLUMNS, check, in_si, numbers, read_csv
+from ebac.operators.columns import (
+    APPROACH,
+    OPERATOR_COLUMNS,
+    check,
+    in_si,
+    meant,
+    numbers,
+    read_csv,
+)
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -164,7 +172,9 @@ class Operators:
         known, table = list(OPERATOR_COLUMNS), in_si(table)
         for name in table:
             if name not in OPERATOR_COLUMNS:
-                raise ValueError(unknown(f"column {name}", str(name), known))
+                raise ValueError(
+                    unknown(f"column {name}", str(name), known, meant=meant(str(name)))
+                )
         missing = [c.name for c in OPERATOR_COLUMNS.values() if c.required and c.name not in table]
         if missing:
             raise ValueError(

@@ -252,4 +252,6 @@ def _short(value: float) -> str:
     """Return a number in few characters."""
     if value >= 1e4:
         return f"{value / 1e3:,.0f}k"
+    if 0 < value < 1e-3:
+        return "<0.001"
     return f"{value:.0f}" if value >= 100 else f"{value:.3g}" if value >= 0.1 else f"{value:.1g}"
