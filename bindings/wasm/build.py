@@ -69,6 +69,8 @@ def build(out: Path) -> None:
     if not compiler():
         raise SystemExit("ziglang, which compiles to WebAssembly, is missing: pip install ziglang")
     out.parent.mkdir(parents=True, exist_ok=True)
+    files = len(CORE) + len(OWN) + 1
+    print(f"compiling {files} files to WebAssembly in one step, about two minutes ...", flush=True)
     with tempfile.TemporaryDirectory() as room:
         unit = Path(room, "ebac.cpp")
         files = [
