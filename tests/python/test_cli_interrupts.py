@@ -6,6 +6,7 @@ import signal
 import subprocess
 import sys
 import time
+from importlib import import_module
 from pathlib import Path
 
 import pytest
@@ -126,7 +127,7 @@ def test_an_interruption_after_a_run_names_its_log(
         raise KeyboardInterrupt
 
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr(sys.modules["ebac.cli.run.carry_out"], "give", stopped)
+    monkeypatch.setattr(import_module("ebac.cli.run.carry_out"), "give", stopped)
     datasets.write("joystick", tmp_path)
     result = CliRunner().invoke(app, ["run", "joystick.toml", *clock.split()])
     assert result.exit_code == 130
