@@ -40,7 +40,15 @@ class Condition:
     drives: tuple[Change, ...] = ()
 
     def scenarios(self, operators: Operators, base: Scenario) -> list[Scenario]:
-        """Return what is simulated under this condition."""
+        """Return what is simulated under this condition.
+
+        Parameters
+        ----------
+        operators : Operators
+            The hands; a condition with `drives` replaces them.
+        base : Scenario
+            What the condition changes.
+        """
         if self.drives:
             return [self.made(drive(self.change(base))) for drive in self.drives]
         return [self.made(self.change(one)) for one in operators.scenarios(base)]

@@ -66,7 +66,21 @@ class Trace:
         origin: str = "",
         changed: bool = False,
     ) -> Self:
-        """Look at rows of the core."""
+        """Look at rows of the core.
+
+        Parameters
+        ----------
+        rows : Rows
+            Not copied.
+        scenario : Scenario or None
+            What was run.
+        law, law_repr : str
+            The law's name, and its text that evaluates to an equal one.
+        origin : str
+            What a title calls them; default: simulated or recorded, by their columns.
+        changed : bool
+            Whether law or world was changed while it ran.
+        """
         data, columns = row_views(rows, rows.bytes()), column_infos(rows)
         return cls(
             data=data,
@@ -115,6 +129,13 @@ class Trace:
     def axis(self, name: str, axis: int = 0) -> NDArray[Any]:
         """Return one axis of a column, shape (rows,).
 
+        Parameters
+        ----------
+        name : str
+            Of the column.
+        axis : int
+            From 0 up.
+
         Raises
         ------
         ValueError
@@ -146,6 +167,13 @@ class Trace:
 
     def with_column(self, name: str, values: NDArray[Any]) -> Self:
         """Return the trace with other values in a column it has.
+
+        Parameters
+        ----------
+        name : str
+            Of the column.
+        values : array
+            In the shape and unit of the column.
 
         Raises
         ------
