@@ -420,7 +420,17 @@ def test_a_path_for_an_axis_the_device_does_not_have_is_refused() -> None:
     ("text", "line", "words"),
     [
         ("[device.motor]\n\ntorque_constant = -1\n", 3, "device.motor.torque_constant = -1 N m/A"),
-        ("seconds = 1.0\n[timing]\ndt = 1e-3\ndely = 1\n", 4, ".*no parameter 'dely'"),
+        (
+            "seconds = 1.0\n[timing]\ndt = 1e-3\ndely = 1\n",
+            4,
+            "timing.dely: no such key, did you mean 'delay'; it",
+        ),
+        ("[hand]\nmas = 1\n", 2, "hand.mas: no such key, did you mean 'mass'; it has: mass"),
+        (
+            "[environment]\ntype = 'Free'\nstiffness = 1\n",
+            3,
+            "environment.stiffness: no such key of Free; it has none",
+        ),
         ("# of mine\nsecnds = 3\n", 2, "scenario.secnds: no such name"),
         ("[[hand.path]]\ntype = 'Step'\ntarget = 99\n", 3, r"hand\.path\[0\]\.target = 99 m"),
         ("seconds = -1\n", 1, "seconds = -1 s"),

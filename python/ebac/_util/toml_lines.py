@@ -14,7 +14,7 @@ Path: TypeAlias = tuple[str | int, ...]
 #: How an error of a scenario begins: "scenario.hand.path[0]: ...".
 _PLACE = re.compile(r"scenario((?:\.\w+|\[\d+\])+)")
 #: The key that it is about: "Motor.torque_constant = ...", "Motor has no parameter 'torqe_constant'".
-_KEY = re.compile(r"\b[A-Z]\w*\.([a-z]\w*)|has no parameter '(\w+)'")
+_KEY = re.compile(r"\b[A-Z]\w*\.([a-z]\w*)|\b(\w+) has no parameter '(\w+)'")
 
 #: What a message says for Python: "give mechanics=ebac.Mechanics(damping=...)".
 _IN_PYTHON = re.compile(r"give (\w+)=ebac\.\w+\((\w+)=\.\.\.\)")
@@ -42,7 +42,7 @@ def line_of(text: str, path: Path) -> int | None:
 def located(file: object, text: str, message: str) -> str:
     """Return a message of a scenario with its file and, where it names a key of the text, the line.
 
-    A key that stands in the text is named as there: environment.stiffness, not the field of a class.
+    A key that stands in the text is named as there: environment.stiffness, hand.mas, not the field of a class.
     """
     place, key = _PLACE.match(message), _KEY.search(message)
     begin, at = ("", "") if place is None else (f"{place[0]}: ", place[1].removeprefix(".") + ".")
@@ -51,10 +51,12 @@ def located(file: object, text: str, message: str) -> str:
     table = tuple(int(part) if part.isdigit() else part for part in parts)
     line = None
     if key is not None:
-        name = key[1] or key[2]
+        name = key[1] or key[3]
         line = line_of(text, (*table, name))
-        if line is not None and message.startswith(field := f"{begin}{key[0]} = "):
-            message = f"{at}{name} = {message.removeprefix(field)}"
+        if line is not None and message.startswith(field := f"{begin}{key[0]}"):
+            of = f" of {key[2]}" if key[2] and key[2].lower() not in parts[-1:] else ""
+            wrong = f": no such key{of}" if key[2] else ""
+            message = f"{at}{name}{wrong}{message.removeprefix(field)}"
     if line is None and table:
         line = line_of(text, table)
     return f"{file}: {message}" if line is None else f"{file}, line {line}: {message}"
