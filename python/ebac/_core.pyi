@@ -648,6 +648,8 @@ class DeviceFacts:
         first resonance of the structure, handle held; 0 where none is known [Hz], 0 to 10000.
     force_noise : float
         standard deviation of the force sensor's noise; less than 0.03 N counts as that [N], 0 to 10.
+    force_sensor : bool
+        whether there is a force sensor; without one gains of a force loop are 0.
     """
 
     @staticmethod
@@ -667,6 +669,7 @@ class DeviceFacts:
         peak_force: float = 42.4,
         resonance: float = 0.0,
         force_noise: float = 0.03,
+        force_sensor: bool = True,
     ) -> None: ...
     def __reduce__(self) -> tuple[typing.Any, ...]: ...
     def __repr__(self) -> str: ...
@@ -697,6 +700,11 @@ class DeviceFacts:
     def force_noise(self) -> float:
         """
         standard deviation of the force sensor's noise; less than 0.03 N counts as that [N], 0 to 10
+        """
+    @property
+    def force_sensor(self) -> bool:
+        """
+        whether there is a force sensor; without one gains of a force loop are 0
         """
     @property
     def mass(self) -> float:

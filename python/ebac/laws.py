@@ -197,7 +197,7 @@ def design(
     """
     if isinstance(law, Variant):
         return design(law.law, device, timing, **{**law.changes, **changes})
-    fitted = not isinstance(device, Device) or device.sensor.fitted
+    fitted = device.sensor.fitted if isinstance(device, Device) else device.force_sensor
     if isinstance(law, (str, type)):
         if isinstance(law, str) and law in tuned_laws():
             changes = {**tuned(law, timing.delay)[1], **changes}

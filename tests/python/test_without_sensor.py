@@ -36,6 +36,18 @@ def test_a_law_runs_on_the_encoder_alone_without_its_force_loop(name: str) -> No
         assert blind["x"].tobytes() == without["x"].tobytes()
 
 
+def test_studies_and_searches_design_laws_for_it_too() -> None:
+    few = ebac.Operators.sample(3, 5)
+    without = ebac.study(few, "ebac", ["d1K10"], base=SHORT.replace(device=BARE))
+    bare = ebac.Variant("ebac", {"observer": False, "kp": 0})
+    blind = ebac.study(few, bare, ["d1K10"], base=SHORT)
+    for column in ("rest_m", "least_energy_J", "peak_m"):
+        assert np.array_equal(without.columns[column], blind.columns[column])
+    assert "kp=0.0" in without.trace(0).law_repr
+    worst = ebac.worst("ebac", family=["impact"], evaluations=40, base=SHORT.replace(device=BARE))
+    assert worst.made.kp == 0
+
+
 @pytest.mark.parametrize(
     ("law", "changes"),
     [

@@ -16,6 +16,7 @@ struct DeviceFacts {
   double peak_force = 42.4;   // N
   double resonance = 0;       // Hz
   double force_noise = 0.03;  // N
+  bool force_sensor = true;
 
   static constexpr auto fields() {
     using F = Field<DeviceFacts>;
@@ -34,6 +35,8 @@ struct DeviceFacts {
           "first resonance of the structure, handle held; 0 where none is known", 0, 1e4},
         F{"force_noise", &DeviceFacts::force_noise, "N",
           "standard deviation of the force sensor's noise; less than 0.03 N counts as that", 0, 10},
+        F{"force_sensor", &DeviceFacts::force_sensor, "1",
+          "whether there is a force sensor; without one gains of a force loop are 0"},
     };
   }
 };

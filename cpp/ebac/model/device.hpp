@@ -77,7 +77,8 @@ struct DeviceModel {
             .current_lag = drive.current_lag,
             .peak_force = std::min(peak_force() / longest, peak_force(last)),
             .resonance = resonance(),
-            .force_noise = std::max(DeviceFacts{}.force_noise, sensor.noise)};
+            .force_noise = std::max(DeviceFacts{}.force_noise, sensor.noise),
+            .force_sensor = sensor.fitted};
   }
 };
 
