@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -203,15 +204,21 @@ def flip_advice(sentence: str, explained: float, other_sign: float, turned: str 
 
 def misses(result: ArmResult) -> tuple[str, ...]:
     """Return what the model misses, a sentence each; nothing where structure in the errors changes no result."""
-    out = []
+    checks = (_explains_little, _tied_to_no_place, _unusual, _late, _coloured)
+    found = tuple(sentence for check in checks for sentence in check(result))
+    return found if found or result.nothing_determined else tuple(_far_from_white(result))
+
+
+def _explains_little(result: ArmResult) -> Iterator[str]:
+    """Give what the hand leaves unexplained, or explains with the other sign."""
     if result.flip == "fit" and result.other_sign is not None:
-        out.append(
+        yield (
             flip_advice(
                 "The hand explains {} of the motion (VAF)", result.explained, result.other_sign
             )
         )
     elif result.flip:
-        out.append(
+        yield (
             "Motion and force follow the target as those of a hand only with the force of the other sign: --flip-force "
             "turns it, in Python load(..., flip_force=True). A fit to that force does not determine the hand either: "
             "record one with more motion."
@@ -222,24 +229,36 @@ def misses(result: ArmResult) -> tuple[str, ...]:
             if result.explained >= 0
             else "explains less of the motion than none would (VAF below 0)"
         )
-        out.append(
+        yield (
             f"The hand {share}: is the target of the hand the right one (--switch with the time of every step, "
             "--tapping, or the column target)?"
         )
+
+
+def _tied_to_no_place(result: ArmResult) -> Iterator[str]:
+    """Give that the hand has no stiffness."""
     shown = max(result.explained, result.other_sign or 0.0) > SURE
     if shown and without_place(result.parameters, result.values, Z95 * result.deviation):
-        out.append(
+        yield (
             "The hand has no stiffness, so nothing ties it to a place: this is the device, or what it renders, seen "
             "with the force of the other sign. --flip-force turns it, in Python load(..., flip_force=True); "
             "ebac identify device estimates the device."
         )
+
+
+def _unusual(result: ArmResult) -> Iterator[str]:
+    """Give what makes the motor or the hand doubtful."""
     if not (result.flip or result.nothing_determined):
-        out += motor_check.doubts(result.recordings)
+        yield from motor_check.doubts(result.recordings)
         if not is_hand(result.parameters, result.values):
-            out.append(
+            yield (
                 "No arm or hand is like that: usual are 0.01 to 10 kg, 0.2 to 300 N s/m, 10 to 2e4 N/m. Are the "
                 "units of x and force right (--unit x=mm)?"
             )
+
+
+def _late(result: ArmResult) -> Iterator[str]:
+    """Give a force or target that was late."""
     if result.late and not result.flip:
         p = result.parameters
         other = ", ".join(
@@ -247,25 +266,32 @@ def misses(result: ArmResult) -> tuple[str, ...]:
             for name, e in result.estimates.items()
             if kind(name) in HAND and not e.fixed
         )
-        out.append(
+        yield (
             f"{result.late.sentence}, which the log was not said to be: with that, the fit gives {other}, and "
             f"-2 log L is lower by {result.late.gain:.3g}. {result.late.remedy} takes it into account. The intervals "
             "hold both values."
         )
+
+
+def _coloured(result: ArmResult) -> Iterator[str]:
+    """Give what differs below 20 Hz."""
     if result.regression:
         other = ", ".join(
             f"{name} = {value:.4g} {result[name].unit} instead of {result[name].value:.4g}"
             for name, value in result.regression.items()
         )
-        out.append(
+        yield (
             f"The errors are not white, and below 20 Hz the log gives {other}: something in the log, such as a filter "
             "or the lag of the force sensor, is not in eq. (4). The intervals hold both values."
         )
+
+
+def _far_from_white(result: ArmResult) -> Iterator[str]:
+    """Give how far the errors are from white, where nothing else says what is wrong."""
     far = max(float(np.abs(t.auto).max()) for t in result.tests.values())
-    if far > FAR and not (out or result.nothing_determined):
-        out.append(
+    if far > FAR:
+        yield (
             f"The errors are far from white, with an autocorrelation of {far:.2f}: something in the log, such as a "
             "position or a force that was filtered, or read less often, is not in eq. (4). The estimates may be off by "
             "more than their intervals: record position and force as they were read, at one rate."
         )
-    return tuple(out)
