@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from matplotlib.image import imread
 
 import ebac
-from ebac.plot import COLOURS, DPI, colour, plot_columns, plot_trace, plot_walls
+from ebac.plot import COLOURS, DPI, colour, plot_columns, plot_overlay, plot_trace, plot_walls
 from ebac.plot.save import PRINT_DPI, fitted, millimetres, save
 from ebac.plot.style import MOST_POINTS, _extremes
 
@@ -125,6 +125,17 @@ def test_a_run_without_any_reading_of_force_has_an_empty_panel(run: Run) -> None
         data[name][:] = np.nan
     figure = ebac.Trace(data=data, columns=whole.columns, axes=1, law="tca").plot()
     assert figure.axes[1].get_ylim() == (-0.15, 0.15)
+
+
+def test_an_overlay_shows_the_part_in_which_the_traces_differ(run: Run) -> None:
+    golden = run("tca")
+    t, x = golden["t"], golden["x"].copy()
+    x[(t >= 0.05) & (t < 0.15)] += 1e-3
+    low, high = plot_overlay(golden.with_column("x", x), golden).axes[0].get_xlim()
+    assert 0 <= low < 0.05
+    assert 0.15 < high < 0.3
+    x += 1e-3  # all along: the whole run
+    assert plot_overlay(golden.with_column("x", x), golden).axes[0].get_xlim()[1] > t[-1]
 
 
 def test_walls_shows_every_law_and_the_ideal(run: Run) -> None:

@@ -245,6 +245,17 @@ def test_a_study_can_be_drawn(few: Study) -> None:
     assert titles == ["0 of 3 good", "3 of 3 good"]
 
 
+def test_the_overview_tells_a_still_hand_that_clicks_from_one_that_swings(few: Study) -> None:
+    from ebac.plot import plot_study
+
+    table = next(plot_study(few))[1].axes[0]
+    shown = [text.get_text() for text in table.texts]
+    rows = {(row.condition, row.law): row for row in few.rows}
+    every = [rows[c.name, law] for c in few.conditions for law in few.laws]
+    clicks = [(row.exact_and_still or 0) > (row.good or 0) for row in every]
+    assert ["(" in text for text in shown] == clicks
+
+
 def test_a_study_draws_its_overview(few: Study) -> None:
     assert "good hands" in few.plot().axes[0].get_title()
 

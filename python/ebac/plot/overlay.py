@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -18,6 +18,8 @@ if TYPE_CHECKING:
 
 #: More channels than this are not drawn.
 MOST_CHANNELS = 6
+#: What is shown before and after a difference, at least [s].
+MARGIN = 0.02
 
 
 def plot_overlay(found: Trace, golden: Trace, divergences: Sequence[Divergence] = ()) -> Picture:
@@ -33,6 +35,7 @@ def plot_overlay(found: Trace, golden: Trace, divergences: Sequence[Divergence] 
     Returns
     -------
     Figure
+        Of the whole run, or of the part in which the traces differ where that is short.
     """
     shown = list(divergences)[:MOST_CHANNELS]
     channels = [d.channel for d in shown] or [c for c in ("x", "f_cmd") if c in found][:2]
@@ -51,11 +54,35 @@ def plot_overlay(found: Trace, golden: Trace, divergences: Sequence[Divergence] 
         _error(lower, golden, unit, values, expected)
         for ax in (upper, lower) if i < len(shown) else ():
             ax.axvline(shown[i].t, color="#d55e00", lw=1, ls=":")
+    if (window := _window(found, golden, series, wanted, channels)) is not None:
+        grid[0].set_xlim(window)
     legend(grid[0])
     grid[-1].set_xlabel("time [s]")
     figure.align_ylabels()
     figure.suptitle(_title(found, divergences), fontsize="medium")
     return figure
+
+
+def _window(
+    found: Trace, golden: Trace, series: dict[str, Any], wanted: dict[str, Any], channels: list[str]
+) -> tuple[float, float] | None:
+    """Return from when to when [s] channels differ by a hundredth of their largest difference or more, with a margin.
+
+    None where they do so over most of the run, or nowhere.
+    """
+    if len(found) != len(golden):
+        return None
+    differs = np.zeros(len(golden), bool)
+    for channel in channels:
+        error = np.abs(series[channel][1].astype(float) - wanted[channel].astype(float))
+        differs |= (error > 0.01 * np.nanmax(error, initial=0.0)) & (error > 0)
+    if not differs.any():
+        return None
+    t = golden["t"]
+    first, last = t[differs][[0, -1]]
+    margin = max(0.25 * (last - first), MARGIN)
+    whole = float(t[-1] - t[0])
+    return (first - margin, last + margin) if last - first + 2 * margin < 0.5 * whole else None
 
 
 def _title(found: Trace, divergences: Sequence[Divergence]) -> str:

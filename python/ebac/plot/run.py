@@ -179,7 +179,7 @@ def _ticks(ax: Axes, t: Values) -> None:
 def _energy(ax: Axes, trace: Trace, axis: int) -> None:
     work = trace.axis("work", axis) + trace.axis("damped", axis)
     thick: dict[str, Any] = {"color": "0.75", "lw": 3}
-    curves = [(work, "port work + damping taken", thick)]
+    curves = [(work, "work + damped energy", thick)]
     for name, label, style in (
         ("law.energy", "account of the law", {"color": "black"}),
         ("law.account", "account of the law", {"color": "black"}),

@@ -31,6 +31,8 @@ EXACT = "0.88"
 GOOD: dict[str, Any] = {"marker": "o", "ms": 4, "mew": 0, "alpha": 0.6}
 RING: dict[str, Any] = {"marker": "o", "ms": 4, "mew": 0.9, "mfc": "none"}
 CROSS: dict[str, Any] = {"marker": "x", "ms": 5, "mew": 1.1}
+#: How opaque the colours of a table are, and below which luminance its text is white.
+OPAQUE, DARK = 0.75, 0.45
 #: Room for a letter of a name in a table [inch], and the slope of names below it [degree].
 LETTER, SLOPE = 0.085, 30
 
@@ -205,7 +207,8 @@ def _overview(study: Study, *, narrow: bool) -> Picture:
     laws, names = list(study.laws), [c.name for c in study.conditions]
     rows = {(row.condition, row.law): row for row in study.rows}
     every = [[rows[name, law] for law in laws] for name in names]
-    good = [[None if r.good is None else 100 * r.good / r.hands for r in line] for line in every]
+    good = [[_percent(r.good, r.hands) for r in line] for line in every]
+    still = [[_percent(r.exact_and_still, r.hands) for r in line] for line in every]
     drawn = [
         [None if r.most_drawn_J is None else 1e3 * r.most_drawn_J for r in line] for line in every
     ]
@@ -221,8 +224,8 @@ def _overview(study: Study, *, narrow: bool) -> Picture:
         figure = new_figure(beside + left_of + 2 * panel, 1.4 + below + 0.24 * len(names))
         left, right = figure.subplots(1, 2, sharey=True)
     figure.narrow = partial(_overview, study, narrow=True)
-    _table(left, good, {"cmap": "RdYlBu", "vmin": 0, "vmax": 100})
-    left.set_title("good hands [%]", fontsize="medium")
+    _table(left, good, {"cmap": "RdYlBu", "vmin": 0, "vmax": 100}, still)
+    left.set_title("good hands [%] (exact and still, where more)", fontsize="medium")
     log: dict[str, Any] = {"cmap": "YlOrRd", "norm": LogNorm(1e-2, 1e5, clip=True)}
     _table(right, drawn, log)
     right.set_title("drawn in any window [mJ], k: thousands", fontsize="medium")
@@ -239,13 +242,31 @@ def _overview(study: Study, *, narrow: bool) -> Picture:
     return figure
 
 
-def _table(ax: Axes, cells: list[list[float | None]], style: dict[str, Any]) -> None:
+def _percent(count: int | None, hands: int) -> float | None:
+    return None if count is None else 100 * count / hands
+
+
+def _table(
+    ax: Axes,
+    cells: list[list[float | None]],
+    style: dict[str, Any],
+    beside: list[list[float | None]] | None = None,
+) -> None:
+    """Draw a table in colours; numbers of `beside` stand in brackets where they are larger."""
     values = np.array([[np.nan if cell is None else cell for cell in line] for line in cells])
     shown = np.where(values == 0, 1e-9, values) if "norm" in style else values
-    ax.imshow(shown, aspect="auto", alpha=0.75, **style)
+    image = ax.imshow(shown, aspect="auto", alpha=OPAQUE, **style)
     for (row, column), value in np.ndenumerate(values):
         known = "-" if np.isnan(value) else _short(value)
-        ax.text(column, row, known, ha="center", va="center", fontsize="small")
+        more = None if beside is None else beside[row][column]
+        if more is not None and more > value:
+            known += f" ({_short(more)})"
+        red, green, blue = OPAQUE * np.array(image.to_rgba(shown[row, column])[:3]) + 1 - OPAQUE
+        dark = 0.2126 * red + 0.7152 * green + 0.0722 * blue < DARK
+        ax.text(
+            column, row, known, ha="center", va="center", fontsize="small",
+            color="white" if dark else "black",
+        )  # fmt: skip
 
 
 def _short(value: float) -> str:
