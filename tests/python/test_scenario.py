@@ -258,7 +258,7 @@ def test_a_wrong_document_is_refused_and_the_message_says_where(text: str, messa
     ("key", "remedy"),
     [
         ("mass", "give handle_mass in [device.mechanics] without the rotor's share; it has"),
-        ("damping", "'damping': give damping in [device.mechanics]; it has"),
+        ("damping", "device.damping: no such key: give damping in [device.mechanics]; it has"),
     ],
 )
 def test_a_file_is_told_its_own_table_not_python(key: str, remedy: str, tmp_path: Path) -> None:

@@ -85,7 +85,7 @@ def stiffest(
 
     * `ebac stiffest --law tca-damped --change kp=0 --delay 2 --wall-stiffness 5000,10000`: a damper alone beside it
 
-    * `ebac stiffest --law all --no-observer --share 0.95`: no force sensor, and 3 of the 60 hands may be lost
+    * `ebac stiffest --law all --no-device-sensor --share 0.95`: no force sensor, and 3 of the 60 hands may be lost
     """
     with output.refusing():
         laws = changed_laws.beside(by_name.law_names(law or ["all"]), change or [])
