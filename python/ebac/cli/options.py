@@ -16,9 +16,10 @@ from ebac.cli import completion, doubtful_wall, output, setting
 
 if TYPE_CHECKING:
     from ebac._core import Hand
+    from ebac.operators import Operators
     from ebac.scenario import Environment, Scenario
 
-WALL, HAND, DEVICE, RUN = "Wall", "Hand", "Device", "Run"
+WALL, HAND, DEVICE, RUN, POPULATION = "Wall", "Hand", "Device", "Run", "Population"
 
 
 def option(*names: str, text: str, default: str | bool = False, panel: str, **more: Any) -> Any:
@@ -164,6 +165,36 @@ class HandOptions:
     hand_target: Annotated[
         float | None, option(text="Position the hand moves to [m]", default="0.04", panel=HAND)
     ] = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class PopulationOptions:
+    """The hands of a study."""
+
+    population: Annotated[
+        str,
+        typer.Option(
+            help="grid60, random, or a CSV file with the columns m_kg, b_Ns_per_m, k_N_per_m, target_m and optionally "
+            "approach_m, tremor_m, tremor_Hz.",
+            rich_help_panel=POPULATION,
+        ),
+    ] = "grid60"
+    hands: Annotated[
+        int | None,
+        typer.Option(
+            help="Number of random hands.", show_default="500", min=1, rich_help_panel=POPULATION
+        ),
+    ] = None
+    seed: Annotated[
+        int,
+        typer.Option(
+            help="Seed of random hands, noise and jitter.", min=0, rich_help_panel=POPULATION
+        ),
+    ] = 1
+
+    def operators(self, approach: float | None = None) -> Operators:
+        """Return the hands, with another way through free air before the wall [m] if it is given."""
+        return setting.population(self.population, self.hands, self.seed, approach)
 
 
 @dataclass(frozen=True, kw_only=True)

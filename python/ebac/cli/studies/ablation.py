@@ -15,7 +15,7 @@ from ebac.cli.studies import replaced, study_results
 if TYPE_CHECKING:
     from ebac.studies import Ablation, AblationRow, Piece
 
-_WHO, _WHAT = "Population", "Law and parts"
+_WHAT = "Law and parts"
 #: Measures of one table on the screen.
 ABREAST = 7
 #: Differences named in a line; the tables show all.
@@ -26,6 +26,7 @@ def ablation(
     to: ResultOptions,
     device: options.DeviceOptions,
     length: options.RunOptions,
+    hands: options.PopulationOptions,
     law: Annotated[str, options.one_law(panel=_WHAT)] = "ebac",
     change: Annotated[
         list[str] | None,
@@ -43,22 +44,6 @@ def ablation(
             rich_help_panel=_WHAT,
         ),
     ] = None,
-    population: Annotated[
-        str,
-        typer.Option(
-            help="grid60, random, or a CSV file as for `ebac study`.", rich_help_panel=_WHO
-        ),
-    ] = "grid60",
-    hands: Annotated[
-        int | None,
-        typer.Option(
-            help="Number of random hands.", show_default="500", min=1, rich_help_panel=_WHO
-        ),
-    ] = None,
-    seed: Annotated[
-        int,
-        typer.Option(help="Seed of random hands, noise and jitter.", min=0, rich_help_panel=_WHO),
-    ] = 1,
     threads: options.Threads = None,
     resume: Annotated[bool, options.resume("ablation")] = False,
     as_json: output.AsJson = False,
@@ -88,12 +73,12 @@ def ablation(
             "changes": [setting.parse_change(one) for one in change or []],
             "beside": by_name.law_names(beside or ("tca", "eba"), "--beside"),
             "base": options.scenario_of(device, length),
-            "seed": seed,
+            "seed": hands.seed,
             "threads": threads,
             "resume": resume,
             "out": None if folder is None else folder / study_results.BUNDLES,
         }
-        people = setting.population(population, hands, seed)
+        people = hands.operators()
         replaced.tell(given["base"], conditions_of(MEASURES))
     found = _run(people, given, folder, quiet=as_json)
     to.report(

@@ -9,14 +9,12 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from ebac.cli import by_name, doubtful_wall, interrupts, options, output, setting
+from ebac.cli import by_name, doubtful_wall, interrupts, options, output
 from ebac.cli.files import ResultOptions
 from ebac.cli.studies import changed_laws, study_results
 
 if TYPE_CHECKING:
     from ebac.studies import Stiffest
-
-_WHO = "Population"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -32,6 +30,7 @@ def stiffest(
     to: ResultOptions,
     device: options.DeviceOptions,
     run: _Run,
+    hands: options.PopulationOptions,
     law: Annotated[list[str] | None, options.laws("all")] = None,
     change: changed_laws.Change = None,
     wall_stiffness: Annotated[
@@ -46,25 +45,9 @@ def stiffest(
         float,
         typer.Option(
             help="Share of the hands for which a wall must hold, above 0 and at most 1.",
-            rich_help_panel=_WHO,
+            rich_help_panel=options.POPULATION,
         ),
     ] = 1.0,
-    population: Annotated[
-        str,
-        typer.Option(
-            help="grid60, random, or a CSV file as for `ebac study`.", rich_help_panel=_WHO
-        ),
-    ] = "grid60",
-    hands: Annotated[
-        int | None,
-        typer.Option(
-            help="Number of random hands.", show_default="500", min=1, rich_help_panel=_WHO
-        ),
-    ] = None,
-    seed: Annotated[
-        int,
-        typer.Option(help="Seed of random hands, noise and jitter.", min=0, rich_help_panel=_WHO),
-    ] = 1,
     threads: options.Threads = None,
     resume: Annotated[bool, options.resume("search")] = False,
     as_json: output.AsJson = False,
@@ -91,10 +74,10 @@ def stiffest(
         laws = changed_laws.beside(by_name.law_names(law or ["all"]), change or [])
         _check(share, wall_stiffness or ())
         given: dict[str, Any] = {
-            "population": setting.population(population, hands, seed),
+            "population": hands.operators(),
             "base": options.scenario_of(device, run),
             "share": share,
-            "seed": seed,
+            "seed": hands.seed,
             "threads": threads,
             **({"stiffnesses": wall_stiffness} if wall_stiffness else {}),
         }

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from ebac.cli import by_name, interrupts, options, output, setting
+from ebac.cli import by_name, interrupts, options, output
 from ebac.cli.files import PANEL, ResultOptions
 from ebac.cli.studies import replaced, study_results
 
@@ -15,37 +15,20 @@ if TYPE_CHECKING:
     from ebac.operators import Operators
     from ebac.studies import Study
 
-_WHO, _WHAT = "Population", "Laws and conditions"
+_WHAT = "Laws and conditions"
 
 
 def study(
     to: ResultOptions,
     device: options.DeviceOptions,
     length: options.RunOptions,
-    population: Annotated[
-        str,
-        typer.Option(
-            help="grid60, random, or a CSV file with the columns m_kg, b_Ns_per_m, k_N_per_m, target_m and optionally "
-            "approach_m, tremor_m, tremor_Hz.",
-            rich_help_panel=_WHO,
-        ),
-    ] = "grid60",
-    hands: Annotated[
-        int | None,
-        typer.Option(
-            help="Number of random hands.", show_default="500", min=1, rich_help_panel=_WHO
-        ),
-    ] = None,
-    seed: Annotated[
-        int,
-        typer.Option(help="Seed of random hands, noise and jitter.", min=0, rich_help_panel=_WHO),
-    ] = 1,
+    hands: options.PopulationOptions,
     approach: Annotated[
         float | None,
         typer.Option(
             help="Distance every hand moves through free air before the wall [m].",
             show_default="0.01, or as in the file",
-            rich_help_panel=_WHO,
+            rich_help_panel=options.POPULATION,
         ),
     ] = None,
     law: Annotated[
@@ -95,11 +78,11 @@ def study(
 
     with output.refusing():
         names = by_name.law_names(law or LAWS)
-        people = setting.population(population, hands, seed, approach)
+        people = hands.operators(approach)
         given: dict[str, Any] = {
             "base": options.scenario_of(device, length),
             "conditions": by_name.condition_names(condition or ["d1K10"]),
-            "seed": seed,
+            "seed": hands.seed,
             "threads": threads,
         }
         replaced.tell(given["base"], given["conditions"])
