@@ -120,8 +120,13 @@ TEST(Sweep, MeasuresWhatSimulateWrites) {
       const bool acts = asked[j] != 0 || command[j] != 0 || force[j] != 0;
       if (acts) pull[j] = tasks.setups[i].hand.pull(0, t[j], x[j]);
     }
-    WallContact expected = measure_contact(
-        {.t = t, .x = x, .force = force, .energy = energy, .stored = stored, .pull = pull});
+    WallContact expected = measure_contact({.t = t,
+                                            .x = x,
+                                            .force = force,
+                                            .energy = energy,
+                                            .stored = stored,
+                                            .pull = pull,
+                                            .wall = asked});
     expected.clamped_share = outcomes[i].contact.clamped_share;
     EXPECT_GT(expected.clamped_share, 0);
     EXPECT_TRUE(same_bits(outcomes[i].contact, expected));
