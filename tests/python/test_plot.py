@@ -205,7 +205,7 @@ def test_threads_may_draw_at_once(run: Run) -> None:
     assert len(sizes) == 4
 
 
-@pytest.mark.parametrize("width", [None, "single"])
+@pytest.mark.parametrize("width", [None, "double"])
 @pytest.mark.slow
 def test_a_png_is_the_picture_that_matplotlib_saves(
     run: Run, tmp_path: Path, width: str | None
