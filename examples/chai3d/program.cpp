@@ -46,7 +46,7 @@ std::shared_ptr<chai::HapticDevice> device_for(const Choice& choice, std::string
     return std::make_shared<chai::HapticDevice>(at_its_pace(ebac::SimulatedDevice(setup)),
                                                 !choice.realtime);
   auto drives = ebac::can::device_through_can<ebac::SimulatedDevice>(setup);
-  drives.enable();
+  drives.switch_on();
   return std::make_shared<chai::HapticDevice>(at_its_pace(std::move(drives)), !choice.realtime);
 }
 
