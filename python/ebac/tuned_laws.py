@@ -50,15 +50,21 @@ def on_its_observer(scenario: Scenario, law: AnyLaw) -> Scenario:
     Raises
     ------
     ValueError
-        For a law "...-tuned-observer" where the scenario turns the observer off.
+        For a law "...-tuned-observer" where the scenario turns the observer off, or the device has no force sensor.
     """
     name = getattr(law, "law", law)  # of a Variant, too
     if not isinstance(name, str) or not name.endswith(_OBSERVED) or name not in tuned_laws():
         return scenario
-    if not scenario.observer or not scenario.device.sensor.fitted:
+    instead = name.removesuffix("-observer")
+    if not scenario.device.sensor.fitted:
+        raise ValueError(
+            f"{name}: acts on the estimate of the state observer, which needs a force sensor, and the device has none; "
+            f"use {instead}"
+        )
+    if not scenario.observer:
         raise ValueError(
             f"{name}: acts on the estimate of the state observer, which is off; turn it on with observer=True, or use "
-            f"{name.removesuffix('-observer')}"
+            f"{instead}"
         )
     if isinstance(scenario.observer, bool | str):
         return scenario.replace(observer="every-law")

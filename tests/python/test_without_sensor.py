@@ -72,7 +72,8 @@ def test_an_observer_that_is_asked_for_is_refused(observer: Any) -> None:
     with pytest.raises(ValueError, match=r"Scenario\.observer: .* the device has no force sensor"):
         ebac.Scenario(device=BARE, observer=observer)
     with pytest.raises(
-        ValueError, match="acts on the estimate of the state observer, which is off"
+        ValueError,
+        match=r"which needs a force sensor, and the device has none; use tca-damped-tuned$",
     ):
         ebac.simulate(SHORT.replace(device=BARE), "tca-damped-tuned-observer")
 
