@@ -204,6 +204,15 @@ void bind_law(const py::module_& m, const char* name, const LawType& type) {
   add_start(law);
 }
 
+void refuse_other_headers(const py::module_& module, const std::string& compiled) {
+  if (compiled == compiled_with()) return;
+  throw py::import_error(
+      py::cast<std::string>(module.attr("__name__")) + " is compiled with headers of ebac " +
+      compiled + ", this ebac with headers of " + compiled_with() +
+      ": install the core and the package from the same clone, then compile the module "
+      "again (docs/how-to/write_a_law.md)");
+}
+
 void bind_bases(py::module_& m) {
   const OwnSignatures own;
   py::class_<LawState>(m, "_LawState", "State of any law.")
@@ -234,7 +243,9 @@ std::string LawClass::documented(const char* name, const std::string& signature,
 /// A new law: its header in control/laws.hpp, one line here.
 void bind_controllers(py::module_& m) {
   bind_bases(m);
-  m.def("_bind_law", [](const py::module_& module, const char* name, const py::capsule& type) {
+  m.def("_bind_law", [](const py::module_& module, const char* name, const std::string& compiled,
+                        const py::capsule& type) {
+    refuse_other_headers(module, compiled);
     bind_law(module, name, *type.get_pointer<const LawType>());
   });
   constexpr std::array<std::array<const char*, 2>, 13> kLaws{

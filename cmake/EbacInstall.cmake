@@ -6,6 +6,7 @@ install(TARGETS ebac EXPORT ebacTargets ARCHIVE COMPONENT core)
 install(DIRECTORY cpp/ebac DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT core
         FILES_MATCHING PATTERN "*.hpp")
 # What a law of your own needs to become a Python class; see examples/out_of_tree_law.
+install(FILES "${EBAC_HEADERS_DIR}/ebac/headers.hpp" DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/ebac COMPONENT core)
 install(FILES bindings/controllers.hpp DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/ebac/python COMPONENT core)
 install(EXPORT ebacTargets NAMESPACE ebac:: DESTINATION ${package_dir} COMPONENT core)
 
