@@ -172,3 +172,8 @@ def test_a_hand_faster_than_rows_is_believed_only_when_told_apart(
     correlation[0, 1] = correlation[1, 0] = together
     said = undetermined(p, values, 0.01 * values, correlation, 0.04, 1e-3)
     assert ({"M0", "B0", "K0"} <= set(said)) is lost
+
+
+def test_of_a_model_that_runs_away_nothing_is_known() -> None:
+    endless = np.full((2, 50), 1e200)
+    assert (np.diag(covariance(endless, np.ones(50), [50])) == np.inf).all()

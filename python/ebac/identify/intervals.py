@@ -21,6 +21,8 @@ if TYPE_CHECKING:
 Z95 = 1.959963984540054
 #: Multiple of the apparent information of pure noise that is subtracted from that of a log.
 PRETENCE = 2.0
+#: Errors and their derivatives of a model that runs away are larger: nothing is known of it.
+RUN_AWAY = 1e100
 
 
 def covariance(
@@ -44,6 +46,8 @@ def covariance(
     West 1987), which also holds when the errors are autocorrelated; and the same along a log that is folded, one fold
     for each recording, which also holds when its errors repeat.
     """
+    if not max(np.abs(jacobian).max(), np.abs(errors).max()) < RUN_AWAY:
+        return np.diag(np.full(len(jacobian), np.inf))
     w = weights(errors, robust)
     scores = jacobian * (w * errors)
     scale = np.sqrt((jacobian**2).sum(axis=1))
