@@ -10,9 +10,8 @@ from ebac.identify.gains.check import LAWS
 from ebac.identify.gains.table import HOW, NUMBERS, OVER, side_by_side, written
 
 #: Seeds 1 to 10 were looked at while the intervals were made; what is shown is the first of those that were not.
-ARM, DEVICE = (
-    "identify check arm --logs 200 --seed 11",
-    "identify check device --logs 200 --seed 11",
+ARM, DEVICE, SCALE = (
+    f"identify check {what} --logs 200 --seed 11" for what in ("arm", "device", "scale")
 )
 GAINS_LOGS, GAINS_SEEDS = "identify check gains --logs 10 --seed", (1, 2, 3, 4, 5)
 GAINS = f"{GAINS_LOGS} 4"
@@ -69,6 +68,11 @@ def arm(printed: Printed) -> str:
 def device(printed: Printed) -> str:
     """200 random devices."""
     return coverage(printed.rows(DEVICE))
+
+
+def scale(printed: Printed) -> str:
+    """200 random hands that sway, and sensors of another scale than the motor."""
+    return coverage(printed.rows(SCALE))
 
 
 def gains(printed: Printed) -> str:

@@ -65,6 +65,7 @@ TABLES: dict[str, Callable[[Printed], str]] = {
     "walls": story.walls,
     "identify-arm": identified.arm,
     "identify-device": identified.device,
+    "identify-scale": identified.scale,
     "identify-gains": identified.gains,
     "identify-gains-seeds": identified.gains_by_seed,
     "outliers": tracked.outliers,

@@ -219,7 +219,7 @@ def test_a_press_that_sticks_is_called_so() -> None:
 
 
 def test_bad_wishes_of_a_check_are_refused() -> None:
-    with pytest.raises(ValueError, match="what = 'wall': must be arm or device"):
+    with pytest.raises(ValueError, match="what = 'wall': must be arm, device or scale"):
         check(1, what="wall")
     with pytest.raises(ValueError, match="arms = 0: must be at least 1"):
         check(0)

@@ -239,4 +239,4 @@ def test_a_wrong_call_of_a_result_is_refused_by_name(
 def test_a_check_of_gains_refuses_what_it_does_not_use() -> None:
     done = CliRunner().invoke(app, ["identify", "check", "gains", "--seconds", "5"])
     assert done.exit_code == 2
-    assert "--seconds 5: is for arm and device only" in done.output
+    assert "--seconds 5: is not for gains" in done.output

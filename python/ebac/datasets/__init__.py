@@ -13,7 +13,7 @@ A first look::
 """
 
 from ebac.datasets.files import DATASETS, Dataset, write
-from ebac.datasets.logs import arm, device, press, tapping
+from ebac.datasets.logs import arm, device, press, sway, tapping
 from ebac.datasets.others import circle, hands, joystick, joystick_text, line
 
 __all__ = [
@@ -27,6 +27,7 @@ __all__ = [
     "joystick_text",
     "line",
     "press",
+    "sway",
     "tapping",
     "write",
 ]

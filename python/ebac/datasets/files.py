@@ -115,10 +115,13 @@ def _table(path: Path, note: str, headings: list[str], rows: Iterable[str]) -> N
     path.write_text("\n".join(lines), encoding="utf-8")
 
 
-def _tapping(path: Path, note: str) -> None:
-    from ebac.logs.files import write_mcap
+def _mcap(make: Callable[[], Trace]) -> Callable[[Path, str], None]:
+    def made(path: Path, note: str) -> None:
+        from ebac.logs.files import write_mcap
 
-    write_mcap(logs.tapping(), path, files={"README.txt": note + "\n"})
+        write_mcap(make(), path, files={"README.txt": note + "\n"})
+
+    return made
 
 
 def _hands(path: Path, note: str) -> None:
@@ -159,7 +162,7 @@ DATASETS: dict[str, Dataset] = {
                 "ebac identify arm tapping.mcap",
                 "ebac log info tapping.mcap",
             ),
-            _write=_tapping,
+            _write=_mcap(logs.tapping),
         ),
         Dataset(
             name="device",
@@ -176,6 +179,14 @@ DATASETS: dict[str, Dataset] = {
             truth="M0 = 0.15 kg, B0 = 6 N s/m, K0 = 300 N/m",
             commands=("ebac identify gains press.csv --switch 1.0",),
             _write=_csv(logs.press, {**_HAND, "f_env": "desired [N]"}),
+        ),
+        Dataset(
+            name="sway",
+            file="sway.mcap",
+            about="A hand presses on a virtual wall to and fro, once a second; 15 s at 1 kHz.",
+            truth="the force sensor shows 2 % too little; friction 0.1 N",
+            commands=("ebac identify scale sway.mcap",),
+            _write=_mcap(logs.sway),
         ),
         Dataset(
             name="line",

@@ -97,6 +97,31 @@ def device() -> Trace:
     return simulate(scenario, "direct")
 
 
+def sway() -> Trace:
+    """Return a log of a hand that presses on a wall of 2 kN/m to and fro once a second, 15 s, under the law `ebac`.
+
+    The force sensor shows 2 % too little, and the device has 0.1 N of Coulomb friction.
+    """
+    from ebac._core import Device, ForceSensor, Hand, Mechanics, Sine, Wall
+    from ebac.scenario import Scenario
+    from ebac.simulation import simulate
+
+    scenario = Scenario(
+        device=Device(
+            mechanics=Mechanics(coulomb=0.1), sensor=ForceSensor(noise=NOISE, scale=0.98)
+        ),
+        hand=Hand(
+            mass=0.5,
+            damping=10.0,
+            stiffness=600.0,
+            path=Sine(centre=0.03, amplitude=0.015, frequency=1.0),
+        ),
+        environment=Wall(stiffness=2000.0),
+        seconds=15.0,
+    )
+    return simulate(scenario, "ebac")
+
+
 @dataclass
 class Perturbation:
     """Apply a force that was planned for each tick [N], whatever the port does; 0 after the last one."""

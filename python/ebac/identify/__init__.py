@@ -15,6 +15,7 @@ from ebac.identify.arm import fit_arm
 from ebac.identify.device import fit_device
 from ebac.identify.device_result import DeviceResult
 from ebac.identify.estimate import Estimate
+from ebac.identify.force_scale import ForceScale, force_scale
 from ebac.identify.gains.gains import GainsResult, fit_gains
 from ebac.identify.gains.trial import Limits
 from ebac.identify.informativeness import LogCheck, check_log
@@ -29,6 +30,7 @@ __all__ = [
     "ArmResult",
     "DeviceResult",
     "Estimate",
+    "ForceScale",
     "GainsResult",
     "Limits",
     "LogCheck",
@@ -42,6 +44,7 @@ __all__ = [
     "fit_device",
     "fit_gains",
     "fit_loop",
+    "force_scale",
     "frequency_response",
     "load",
 ]

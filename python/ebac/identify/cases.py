@@ -7,7 +7,18 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ebac._core import Device, ForceSensor, Free, Hand, Mechanics, Recorded, Step, Tapping, Wall
+from ebac._core import (
+    Device,
+    ForceSensor,
+    Free,
+    Hand,
+    Mechanics,
+    Recorded,
+    Sine,
+    Step,
+    Tapping,
+    Wall,
+)
 from ebac.scenario import Scenario
 
 #: What the hand does, and its share of the arms: `free` never touches a wall and does not determine the arm.
@@ -103,3 +114,33 @@ def draw_device(number: int, seed: int, seconds: float = 10.0) -> Case:
     )
     scenario = case.scenario.replace(device=device.replace(mechanics=mechanics))
     return replace(case, scenario=scenario)
+
+
+def draw_sway(number: int, seed: int, seconds: float = 15.0) -> Case:
+    """Draw case `number`: a hand that presses on a soft wall to and fro, a sensor of another scale than the motor."""
+    random = np.random.Generator(np.random.PCG64([seed, number, 2]))
+
+    def between(low: float, high: float) -> float:
+        return float(random.uniform(low, high))
+
+    wall, hand = between(1e3, 3e3), between(300, 1000)
+    depth = between(5, 12) * (1 / wall + 1 / hand)
+    path = Sine(centre=depth, amplitude=depth * between(0.5, 1.0), frequency=between(0.5, 1.5))
+    scenario = Scenario(
+        device=Device(
+            mechanics=Mechanics(
+                handle_mass=between(0.05, 0.5), damping=between(1, 5), coulomb=between(0, 0.3)
+            ),
+            sensor=ForceSensor(
+                noise=between(0.01, 0.1),
+                quantum=0.01,
+                bias=between(-0.3, 0.3),
+                scale=between(0.9, 1.1),
+            ),
+        ),
+        hand=Hand(mass=between(0.1, 1.2), damping=between(3, 20), stiffness=hand, path=path),
+        environment=Wall(stiffness=wall, position=0.0),
+        seconds=seconds,
+        seed=int(random.integers(1, 2**31)),
+    )
+    return Case(number=number, task="sway", law="ebac", scenario=scenario)

@@ -9,15 +9,17 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass, replace
+from time import perf_counter
 from typing import Any
 
 import numpy as np
 
 from ebac.identify.arm import fit_arm
-from ebac.identify.cases import Case, draw, draw_device
+from ebac.identify.cases import Case, draw, draw_device, draw_sway
 from ebac.identify.device import fit_device
 from ebac.identify.estimate import Estimate
 from ebac.identify.fit import spread_at
+from ebac.identify.force_scale import DAMPING, MASS, force_scale
 from ebac.identify.parameters import HAND, lay_out
 from ebac.identify.problem import Problem
 from ebac.identify.recording import Recording
@@ -124,6 +126,35 @@ def run_device_case(case: Case) -> list[Outcome]:
     return _outcomes(case, result.estimates, truth, result.seconds)
 
 
+def run_scale_case(case: Case) -> list[Outcome]:
+    """Simulate one case and compare its sensor with its motor, mass and damping as wrong as they may be."""
+    from ebac.simulation import simulate
+
+    began = perf_counter()
+    sensor, device = case.scenario.device.sensor, case.scenario.device
+    off = np.random.Generator(np.random.PCG64([case.scenario.seed, 3])).choice([-1, 1], size=2)
+    truth = {"scale": sensor.scale}
+    recording = Recording.from_trace(simulate(case.scenario, case.law), name=f"case {case.number}")
+    try:
+        found = force_scale(
+            recording,
+            mass=float(device.mass * (1 + MASS * off[0])),
+            damping=float(device.mechanics.damping * (1 + DAMPING * off[1])),
+        )
+    except ValueError:
+        return _outcomes(case, _nothing(truth), truth, 0.0)
+    estimate = Estimate(
+        name="scale",
+        value=found.scale,
+        unit="N/N",
+        low=found.low,
+        high=found.high,
+        fixed=False,
+        determined=found.determined,
+    )
+    return _outcomes(case, {"scale": estimate}, truth, perf_counter() - began)
+
+
 def _outcomes(
     case: Case, estimates: Mapping[str, Estimate], truth: Mapping[str, float], seconds: float
 ) -> list[Outcome]:
@@ -148,6 +179,8 @@ def _run(job: tuple[str, int, int, float]) -> list[Outcome]:
     what, number, seed, seconds = job
     if what == "device":
         return run_device_case(draw_device(number, seed, seconds))
+    if what == "scale":
+        return run_scale_case(draw_sway(number, seed, seconds))
     return run_case(draw(number, seed, seconds))
 
 
@@ -217,7 +250,7 @@ def check(
     arms : int
         How many, at least 1.
     what : str
-        What is identified: `arm` or `device`.
+        What is identified: `arm`, `device`, or `scale` of the force sensor.
     seed : int
         Of arms, devices, tasks, laws and noise.
     seconds : float
@@ -232,8 +265,8 @@ def check(
     ValueError
         For a number out of range.
     """
-    if what not in ("arm", "device"):
-        raise ValueError(f"what = {what!r}: must be arm or device")
+    if what not in ("arm", "device", "scale"):
+        raise ValueError(f"what = {what!r}: must be arm, device or scale")
     if arms < 1:
         raise ValueError(f"arms = {arms}: must be at least 1")
     if not 1 <= seconds <= 1000:

@@ -36,7 +36,7 @@ def where_met(
 
 
 def trace_facts(trace: Trace, axis: int) -> dict[str, Any]:
-    """Return count, lags, path of the hand and a remark, from the scenario of a trace where it has one."""
+    """Return count, lags, mass and damping, path of the hand and a remark, where a trace has a scenario."""
     if trace.scenario is None:
         return {"count": 0.0, "lag": 0.0, "current_lag": 3e-4, "remarks": ()}
     device = trace.scenario.device
@@ -46,6 +46,8 @@ def trace_facts(trace: Trace, axis: int) -> dict[str, Any]:
         "count": count,
         "lag": lag,
         "current_lag": device.drive.current_lag,
+        "mass": device.mass if axis < 2 else None,  # a slide of three axes has another
+        "damping": device.mechanics.damping,
         "path": path_of(trace, axis),
         "remarks": (said,),
     }

@@ -61,6 +61,8 @@ class Recording:
         First-order lag of the force sensor [s].
     current_lag : float
         First-order lag of the motor's current loop [s].
+    mass, damping : float or None
+        Those of the device at the handle [kg, N s/m], from the scenario in the log.
     path : Step, Tapping, Sine, MinimumJerk, Recorded or None
         Target path of the hand, from the scenario in the log.
     remarks : tuple of str
@@ -94,6 +96,8 @@ class Recording:
     count: float = 0.0
     lag: float = 0.0
     current_lag: float = 3e-4
+    mass: float | None = None
+    damping: float | None = None
     path: Path | None = None
     remarks: tuple[str, ...] = field(default=())
     unread: tuple[str, ...] = field(default=())

@@ -5,7 +5,7 @@ from __future__ import annotations
 import typer
 
 from ebac.cli.command import Group, add
-from ebac.cli.identify import arm, check, device, gains, log
+from ebac.cli.identify import arm, check, device, gains, log, scale
 
 app = typer.Typer(
     cls=Group,
@@ -15,5 +15,6 @@ app = typer.Typer(
 add(app, arm.arm)
 add(app, device.device)
 add(app, gains.gains)
+add(app, scale.scale)
 add(app, log.log)
 add(app, check.check)
