@@ -19,7 +19,7 @@ Run = Callable[..., ebac.Trace]
 
 
 def labels(figure: Figure) -> list[str]:
-    return [ax.get_ylabel() for ax in figure.axes]
+    return [ax.get_ylabel() for ax in figure.axes if ax.get_ylabel()]
 
 
 @pytest.mark.parametrize("law", list(ebac.LAWS))
@@ -47,7 +47,7 @@ def test_a_log_without_the_columns_of_a_loop_is_drawn_with_what_it_has(
 def test_one_column_of_panels_per_axis_in_use(run: Run) -> None:
     joystick = ebac.presets.device("joystick")
     figure = plot_trace(run("ebac", device=joystick, seconds=1.0, observer=False))
-    assert len(figure.axes) == 4
+    assert len(labels(figure)) == 4
     assert "axis 1 not in use" in figure.get_suptitle()
     hand = ebac.Hand(path=(ebac.Step(target=0.02), ebac.Step(target=0.01), ebac.Step(target=0.0)))
     both = plot_trace(run("direct", device=joystick, hand=hand, seconds=1.0))
@@ -59,6 +59,25 @@ def test_a_part_of_a_trace_is_drawn_over_its_own_time(run: Run) -> None:
     low, high = figure.axes[0].get_xlim()
     assert low == pytest.approx(1.0, abs=0.01)
     assert high == pytest.approx(1.2, abs=0.01)
+
+
+def test_the_first_contact_is_enlarged_beside_the_run_on_its_scales(run: Run) -> None:
+    axes = run("ebac").plot().axes
+    whole, contact = axes[: len(axes) // 2], axes[len(axes) // 2 :]
+    assert contact[0].get_title() == "first contact"
+    for left, right in zip(whole, contact, strict=True):
+        assert left.get_ylim() == right.get_ylim()
+        low, high = right.get_xlim()
+        assert high - low < 0.3
+        assert left.get_xlim()[1] > 5
+    trace = run("ebac")
+    met = trace["t"][np.flatnonzero(trace["f_env"])[0]]
+    assert contact[0].get_xlim()[0] < met < contact[0].get_xlim()[1]
+
+
+def test_no_contact_and_a_short_run_are_drawn_once(run: Run) -> None:
+    assert len(run("ebac", environment=ebac.Free()).plot().axes) == 3
+    assert len(run("ebac").between(0, 0.5).plot().axes) == 3
 
 
 def test_beta_panel_is_bounded(run: Run) -> None:
@@ -102,7 +121,7 @@ def test_a_log_without_simulation_can_be_drawn(run: Run) -> None:
         columns={name: whole.columns[name] for name in measured},
         axes=1,
     )
-    assert len(plot_trace(bare).axes) == 3
+    assert len(labels(plot_trace(bare))) == 3
 
 
 @pytest.mark.parametrize("rows", [slice(100, 110), slice(None)], ids=["some rows", "all rows"])

@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.gridspec import GridSpec
 
 from ebac._util.arguments import require
 from ebac._util.arrays import Values
@@ -27,6 +28,19 @@ from ebac.trace import Trace
 
 #: Columns that every loop of ebac has.
 LOOP = ("x", "f_env", "f_meas", "f_cmd", "f_applied", "work", "damped")
+#: The first contact is enlarged: from so long before to so long after it begins [s], in a run that is longer by LONG.
+AROUND, LONG = (0.02, 0.23), 4.0
+#: Width of its panels, over that of the others.
+CONTACT_SHARE = 0.6
+#: Label and style of each energy, by the column that it is of.
+ENERGIES: dict[str, tuple[str, dict[str, Any]]] = {
+    "work": ("work + damped energy", {"color": "0.75", "lw": 3}),
+    "law.energy": ("account of the law", {"color": "black"}),
+    "law.account": ("account of the law", {"color": "black"}),
+    "true.energy": ("port energy", {}),
+}
+#: Draws a part of a run on one axis of the device, on the scales of the whole run.
+Panel = Callable[[Axes, Trace, int, Trace], None]
 
 
 def plot_trace(trace: Trace) -> Picture:
@@ -55,21 +69,25 @@ def plot_trace(trace: Trace) -> Picture:
     if not all(name in trace for name in LOOP):
         return plot_columns(trace, [name for name in trace if name != "t"])
     used = used_axes(trace)
-    panels: list[Callable[[Axes, Trace, int], None]] = [_position, _force, _energy]
+    panels: list[Panel] = [_position, _force, _energy]
     if any(_has_beta(trace, axis) for axis in used):
         panels.insert(2, _beta)
+    contact = first_contact(trace, used[0]) if len(used) == 1 else None
     figure = new_figure(1.5 + 8 * len(used), 1.0 + 2.4 * len(panels))
-    grid = figure.subplots(len(panels), len(used), sharex=True, squeeze=False)
+    shares = [1.0] * len(used) if contact is None else [1.0, CONTACT_SHARE]
+    grid = figure.add_gridspec(len(panels), len(shares), width_ratios=shares)
     for column, axis in enumerate(used):
+        above: Axes | None = None
         for row, draw in enumerate(panels):
-            ax = grid[row, column]
             if draw is _beta and not _has_beta(trace, axis):
-                ax.remove()
                 continue
-            draw(ax, trace, axis)
-        grid[-1, column].set_xlabel("time [s]")
-        if trace.axes > 1:
-            grid[0, column].set_title(f"axis {axis}", pad=22, fontweight="bold")
+            above = figure.add_subplot(grid[row, column], sharex=above)
+            draw(above, trace, axis, trace)
+            if trace.axes > 1 and row == 0:
+                above.set_title(f"axis {axis}", pad=22, fontweight="bold")
+            _time_below(above, last=row == len(panels) - 1)
+    if contact is not None:
+        _enlarge(figure.axes, grid, panels, contact, used[0], trace)
     figure.align_ylabels()
     idle = [str(axis) for axis in range(trace.axes) if axis not in used]
     note = f"\naxis {', '.join(idle)} not in use, not shown" if idle else ""
@@ -77,11 +95,46 @@ def plot_trace(trace: Trace) -> Picture:
     return figure
 
 
+def first_contact(trace: Trace, axis: int) -> Trace | None:
+    """Return the rows around the first contact; None without one, or where they are much of the run."""
+    t = trace["t"]
+    asked = trace.axis("f_env", axis)
+    met = np.flatnonzero(np.isfinite(asked) & (asked != 0))
+    if not met.size or t[-1] - t[0] < LONG * sum(AROUND):
+        return None
+    before, after = AROUND
+    part = trace.between(t[met[0]] - before, t[met[0]] + after)
+    return part if len(part) > 1 else None
+
+
+def _enlarge(
+    beside: list[Axes], grid: GridSpec, panels: list[Panel], part: Trace, axis: int, whole: Trace
+) -> None:
+    """Draw a part of a run beside its panels, on their scales."""
+    above: Axes | None = None
+    for row, (draw, left) in enumerate(zip(panels, beside, strict=True)):
+        above = left.figure.add_subplot(grid[row, -1], sharex=above, sharey=left)
+        draw(above, part, axis, whole)
+        above.set_ylabel("")
+        above.tick_params(labelleft=False)
+        if explained := above.get_legend():
+            explained.remove()
+        if row == 0:
+            above.set_title("first contact", fontsize="medium")
+        _time_below(above, last=row == len(panels) - 1)
+
+
+def _time_below(ax: Axes, *, last: bool) -> None:
+    ax.tick_params(labelbottom=last)
+    if last:
+        ax.set_xlabel("time [s]")
+
+
 def _has_beta(trace: Trace, axis: int) -> bool:
     return "law.beta" in trace and bool(np.isfinite(trace.axis("law.beta", axis)).any())
 
 
-def _position(ax: Axes, trace: Trace, axis: int) -> None:
+def _position(ax: Axes, trace: Trace, axis: int, whole: Trace) -> None:
     t, scenario = trace["t"], trace.scenario
     if "true.x" in trace:
         line(ax, t, 1e3 * trace.axis("x", axis), color=QUANTITIES["x"], lw=2.2, label="x, encoder")
@@ -95,7 +148,7 @@ def _position(ax: Axes, trace: Trace, axis: int) -> None:
     legend(ax, columns=6)
 
 
-def _force(ax: Axes, trace: Trace, axis: int) -> None:
+def _force(ax: Axes, trace: Trace, axis: int, whole: Trace) -> None:
     t = trace["t"]
     asked = trace.axis("f_env", axis)
     line(
@@ -119,11 +172,11 @@ def _force(ax: Axes, trace: Trace, axis: int) -> None:
         line(
             ax, t, trace.axis("log.f_cmd", axis), color="black", ls=":", label="commanded, recorded"
         )
-    limited = np.concatenate([trace.axis(n, axis) for n in ("f_meas", "f_cmd", "f_applied")])
+    limited = np.concatenate([whole.axis(n, axis) for n in ("f_meas", "f_cmd", "f_applied")])
     low, high = _span(limited)
     room = 0.15 * max(high - low, 1.0)
     ax.set_ylim(low - room, high + room)  # what is asked may go far beyond
-    least, most = _span(asked)
+    least, most = _span(whole.axis("f_env", axis))
     beyond = max(most - high, low - least) > room
     far = f", beyond the panel to {max(least, most, key=abs):.3g} N" if beyond else ""
     line(ax, t, asked, color="black", lw=0.6, zorder=1.9, label=f"environment, $F_e${far}")
@@ -138,9 +191,9 @@ def _span(values: Values) -> tuple[float, float]:
     return (float(known.min()), float(known.max())) if known.size else (0.0, 0.0)
 
 
-def _beta(ax: Axes, trace: Trace, axis: int) -> None:
+def _beta(ax: Axes, trace: Trace, axis: int, whole: Trace) -> None:
     t, beta = trace["t"], trace.axis("law.beta", axis) / 1e3
-    limit = limit_of([beta])
+    limit = limit_of([whole.axis("law.beta", axis) / 1e3])
     for name, label in (("law.beta_max", "upper bound"), ("law.beta_min", "lower bound")):
         if name in trace:
             bound = np.clip(trace.axis(name, axis) / 1e3, -limit, limit)
@@ -176,21 +229,18 @@ def _ticks(ax: Axes, t: Values) -> None:
     )
 
 
-def _energy(ax: Axes, trace: Trace, axis: int) -> None:
+def _energies(trace: Trace, axis: int) -> dict[str, Values]:
+    """Return work with what was damped, and the accounts that a trace has [J]."""
     work = trace.axis("work", axis) + trace.axis("damped", axis)
-    thick: dict[str, Any] = {"color": "0.75", "lw": 3}
-    curves = [(work, "work + damped energy", thick)]
-    for name, label, style in (
-        ("law.energy", "account of the law", {"color": "black"}),
-        ("law.account", "account of the law", {"color": "black"}),
-        ("true.energy", "port energy", {"color": colour(trace.law)}),
-    ):
-        if name in trace:
-            curves.append((trace.axis(name, axis), label, style))
-    largest = max(abs(end) for values, _, _ in curves for end in _span(values))
-    factor, unit = (1e3, "mJ") if largest < 1 else (1.0, "J")
-    for values, label, style in curves:
-        line(ax, trace["t"], factor * values, label=label, **style)
+    return {"work": work} | {n: trace.axis(n, axis) for n in ENERGIES if n != "work" and n in trace}
+
+
+def _energy(ax: Axes, trace: Trace, axis: int, whole: Trace) -> None:
+    every = np.concatenate([*_energies(whole, axis).values()])
+    factor, unit = (1e3, "mJ") if max(map(abs, _span(every))) < 1 else (1.0, "J")
+    for name, values in _energies(trace, axis).items():
+        label, style = ENERGIES[name]
+        line(ax, trace["t"], factor * values, label=label, **{"color": colour(trace.law), **style})
     ax.axhline(0, color="0.35", lw=1)
     mark_end(ax, trace, label=False)
     dress(ax, f"energy [{unit}]")
