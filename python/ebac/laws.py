@@ -303,9 +303,9 @@ def changed(law: AnyLaw, **changes: Any) -> AnyLaw:
 def reserve_of(law: CoreLaw | PythonLaw, scenario: Scenario) -> float | None:
     """Return the energy [J] that a law's account begins with in a scenario; None for a law without a reserve.
 
-    Less where the law acts on the estimate of a state observer.
+    Less where the law acts on the estimate of a state observer, which needs a force sensor.
     """
-    observed = bool(scenario.observer) and getattr(law, "observer", False)
+    observed = scenario.designed_observer() is not None and getattr(law, "observer", False)
     reserve: float | None = getattr(law, "observed_reserve" if observed else "reserve", None)
     return reserve
 

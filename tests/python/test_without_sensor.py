@@ -9,6 +9,8 @@ from typer.testing import CliRunner
 
 import ebac
 from ebac.cli import app
+from ebac.datasets import joystick_text
+from ebac.hardware import Configuration
 from ebac.laws import FORCE_GAINS, LAWS, design
 
 BARE = ebac.Device(sensor=None)
@@ -92,3 +94,39 @@ def test_another_value_than_a_table_names_the_way_to_leave_it_out() -> None:
         ValueError, match=r"must be a table; a device without a sensor has .*fitted"
     ):
         ebac.Scenario.from_toml("[device]\nsensor = false\n")
+
+
+def test_a_search_knows_the_reserve_of_a_law_that_has_no_observer() -> None:
+    base = SHORT.replace(device=BARE)
+    found = ebac.worst("ebac", family=["impact"], evaluations=40, base=base)
+    trace = ebac.simulate(base, "ebac")
+    assert found.reserve == trace["law.energy"][0] == pytest.approx(0.010)  # J
+
+
+def without_sensor(law: str, *, fitted: bool) -> Configuration:
+    """Return the joystick without the table [sensor], which says or does not say that its device has none."""
+    text = joystick_text("joystick")
+    first = text.index("[sensor]")
+    text = text[:first] + text[text.index("[recording]") :]
+    if not fitted:
+        text = text.replace(
+            "[device.kinematics]", "[device.sensor]\nfitted = false\n\n[device.kinematics]"
+        )
+    return Configuration.from_toml(text.replace('name = "ebac"', f'name = "{law}"'))
+
+
+@pytest.mark.parametrize("law", ["ebac", "tca-damped", "lag-compensator"])
+@pytest.mark.parametrize("fitted", [True, False])
+def test_a_configuration_without_a_sensor_runs_on_the_virtual_clock(law: str, fitted: bool) -> None:
+    trace = without_sensor(law, fitted=fitted).simulate(seconds=2.0)  # it meets the wall after 1 s
+    assert trace["f_applied"].max() > 5  # N
+    assert not trace["f_meas"].any()
+    assert not trace["fault"].any()
+
+
+def test_with_a_sensor_motion_is_watched_on_the_virtual_clock() -> None:
+    known = Configuration.from_toml(joystick_text("joystick"))
+    assert known.scenario().device.sensor.fitted
+    numb = known.device.sensor.replace(scale=0.1)  # it hardly shows the hand
+    with pytest.raises(ebac.LoopFault, match=r"fault 2[456]"):
+        known.replace(device=known.device.replace(sensor=numb)).simulate(seconds=2.0)

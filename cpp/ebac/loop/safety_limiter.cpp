@@ -18,6 +18,8 @@ SafetyLimiter::SafetyLimiter(const Limits& limits, const DeviceModel& device, do
       travel_(travel(device.kinematics)),
       shorter_(shorter_ways(device.kinematics)),
       count_(device.facts().count) {
+  // Nothing to hold motion and force against.
+  if (!device.sensor.fitted) limits_.watch_force = limits_.watch_motion = false;
   check_limits(limits);
   check_ways(limits, device);
   for (int i = 0; i < device.axes(); ++i) {

@@ -198,6 +198,8 @@ class Configuration:
     def scenario(self, *, seconds: float | None = None) -> Scenario:
         """Return device, hand, virtual world and time as a scenario, for simulations and logs.
 
+        Without a table `[sensor]` the device has no force sensor.
+
         Parameters
         ----------
         seconds : float, optional
@@ -210,8 +212,11 @@ class Configuration:
         """
         if seconds is not None:
             check_seconds(seconds)
+        device = self.device
+        if self.sensor is None:
+            device = device.replace(sensor=None)
         made = Scenario(
-            device=self.device,
+            device=device,
             hand=self.hand,
             environment=self.environment,
             timing=self.timing,
