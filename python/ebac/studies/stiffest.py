@@ -56,18 +56,23 @@ class StiffestRow:
         Most energy that any hand draws in any window at that wall, see `Contact`; hands beyond `share` count, too.
     exact_and_still_settled_s, good_settled_s, good_in_time_settled_s : float or None
         Median settling time at that wall, of the hands that settle.
+    exact_and_still_impact_share, good_impact_share, good_in_time_impact_share : float or None
+        Median stiffness on impact at that wall: the force where a hand goes deepest, over that of the wall there.
     """
 
     law: str
     exact_and_still_N_per_m: float | None
     exact_and_still_drawn_J: float | None
     exact_and_still_settled_s: float | None
+    exact_and_still_impact_share: float | None
     good_N_per_m: float | None
     good_drawn_J: float | None
     good_settled_s: float | None
+    good_impact_share: float | None
     good_in_time_N_per_m: float | None
     good_in_time_drawn_J: float | None
     good_in_time_settled_s: float | None
+    good_in_time_impact_share: float | None
 
     def row(self) -> dict[str, Any]:
         """Return the documented row of `ebac stiffest --json`."""
@@ -139,11 +144,12 @@ class Stiffest:
                 f"{criterion}_N_per_m": at.get("stiffness_N_per_m"),
                 f"{criterion}_drawn_J": at.get("most_drawn_J"),
                 f"{criterion}_settled_s": at.get("median_settled_s"),
+                f"{criterion}_impact_share": at.get("median_impact_share"),
             }
         return StiffestRow(law=law, **values)
 
     def walls(self) -> list[dict[str, Any]]:
-        """Return one row per law and wall: how many hands meet each criterion, energy drawn, settling; SI units."""
+        """Return one row per law and wall: how many hands meet each criterion, energy drawn, settling, stiffness on impact; SI."""
         return [row for rows in self._walls for row in rows]
 
     @cached_property
@@ -161,6 +167,7 @@ class Stiffest:
                     },
                     "most_drawn_J": row.most_drawn_J,
                     "median_settled_s": row.median_settled_s,
+                    "median_impact_share": row.median_impact_share,
                 }
                 for k, stiffness in enumerate(self.stiffnesses)
                 for row in [self.study.rows[k * len(laws) + i]]

@@ -57,8 +57,8 @@ def stiffest(
     A simulation of walls from soft to stiff, all else as in the scenario. Criteria, as in `ebac study`: *exact, still*
     judges the position; *good*, the force is quiet, too; *good, in time*, and settled soon. A law's stiffest wall is
     the last one before the first that fails: it may lose a soft wall and hold a stiffer one, which is then named below
-    the table. Beside it stands the most energy that any hand draws there. The law that is good up to the stiffest wall
-    is first.
+    the table. Beside it stands the most energy that any hand draws there, and the stiffness on impact: a wall may be
+    exact at rest and give way when the hand arrives. The law that is good up to the stiffest wall is first.
 
     **Examples**
 
@@ -130,7 +130,7 @@ def _show(found: Stiffest) -> None:
 
     output.say(
         f"Stiffest wall [kN/m] up to which {found.needed} of {found.hands} hands are exact and still, good, good in "
-        "time; beside it what is drawn there, and how soon it settles.",
+        "time; beside it what is drawn there, how soon it settles, and its stiffness on impact.",
         style="bold",
     )
     headings = [
@@ -139,9 +139,10 @@ def _show(found: Stiffest) -> None:
         "good",
         "drawn",
         "settled",
+        "on impact",
         "good, in time",
         "drawn",
-        "settled",
+        "on impact",
     ]
     grid = output.table(headings, numbers=range(1, len(headings)))
     top = float(found.stiffnesses[-1])
@@ -152,16 +153,19 @@ def _show(found: Stiffest) -> None:
             _kilo(row.good_N_per_m, top),
             formatting.quantity(row.good_drawn_J, "J"),
             formatting.quantity(row.good_settled_s, "s"),
+            formatting.quantity(row.good_impact_share, "share"),
             _kilo(row.good_in_time_N_per_m, top),
             formatting.quantity(row.good_in_time_drawn_J, "J"),
-            formatting.quantity(row.good_in_time_settled_s, "s"),
+            formatting.quantity(row.good_in_time_impact_share, "share"),
         )
     output.show(grid)
     _show_again(found)
     output.say(
         f"Up to which: all softer ones of the {output.plural(len(found.stiffnesses), 'wall')} tried hold, too; none: "
         f"the softest, {1e-3 * found.stiffnesses[0]:g} kN/m, fails. Drawn: most energy that any hand draws in any "
-        "window at that wall. Settled: median of the hands that settle there."
+        "window at that wall. Settled: median of the hands that settle there. On impact: the force where a hand goes "
+        "deepest, over that of the wall there, in the median; below 50 % a wall is soft on impact, however stiff it "
+        "is at rest."
     )
     if "good_in_time" not in found.counts:
         output.say(
