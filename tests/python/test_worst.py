@@ -301,3 +301,25 @@ def test_what_cannot_be_asked_is_refused(
     text = " ".join(command(*words, code=2).output.split())
     assert message in text
     assert list(tmp_path.iterdir()) == []
+
+
+class Pulling:
+    """A law of somebody's own, in which `pull` is something else."""
+
+    name = "pulling"
+    pull = 3.0
+
+    def step(self, port: ebac.Port) -> float:
+        return port.f_env
+
+    def reset(self) -> None:
+        pass
+
+
+def test_an_attribute_of_a_law_does_not_weaken_the_hands_of_a_search() -> None:
+    base = ebac.Scenario(seconds=0.2)
+    found = ebac.worst(Pulling(), family=["impact"], evaluations=40, base=base, threads=1)
+    assert found.pull == 20.0  # N
+    stronger = ebac.Variant("ebac", {"pull": 40.0})
+    found = ebac.worst(stronger, family=["impact"], evaluations=40, base=base, threads=1)
+    assert found.pull == 40.0

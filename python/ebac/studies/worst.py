@@ -134,7 +134,7 @@ def worst(
     seed : int
         Of the search, [0, 2^31).
     pull : float, optional
-        Largest pull of a hand [N], (0, 1000]; default: what the law declares, else 20 N.
+        Largest pull of a hand [N], (0, 1000]; default: 20 N, or what the law declares where that is more.
     base : Scenario, optional
         What the condition changes; default: the reference scenario.
     threads : int, optional
@@ -157,7 +157,7 @@ def worst(
     scenario = on_its_observer(where.made(where.change(base or Scenario())), law)
     made = design(law, *where.believed(scenario))
     declared = getattr(made, "pull", None)
-    most = pull if pull is not None else declared or PULL
+    most = pull if pull is not None else max(PULL, declared or 0.0)
     _check(evaluations=(evaluations, 40, 10**7), seed=(seed, 0, 2**31 - 1), pull=(most, 1e-3, 1e3))
     wanted = [find_family(n, most) for n in dict.fromkeys(family or families(most))]
     total = evaluations * len(wanted)

@@ -56,7 +56,7 @@ def worst(
         float | None,
         typer.Option(
             help="Largest pull of a hand [N].",
-            show_default="what the law declares, else 20",
+            show_default="20, or what the law declares if more",
             rich_help_panel=_SEARCH,
         ),
     ] = None,
