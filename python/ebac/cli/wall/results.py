@@ -43,6 +43,8 @@ LINES = (
 
 #: More laws than this side by side do not fit 80 columns.
 LAWS_ABREAST = 4
+#: A rest that needs so many times the continuous force: the winding is as hot as it may be after one time constant.
+WARM = 1.25
 
 
 def write(
@@ -171,17 +173,23 @@ def show(
 
 
 def _beyond_the_motor(scenario: Scenario) -> str:
-    """Return that no law can be exact, where the ideal rest needs more than the peak force; else nothing."""
+    """Return what the motor cannot give at the ideal rest, or not for long; else nothing."""
     from ebac import Linear
     from ebac.metrics.ideal import ideal_rest
 
-    ideal, peak = ideal_rest(scenario), scenario.device.peak_force
-    if ideal is None or not isinstance(scenario.device.kinematics, Linear):
+    device, ideal = scenario.device, ideal_rest(scenario)
+    if ideal is None or not isinstance(device.kinematics, Linear):
         return ""
     force = abs(scenario.hand.steady(ideal))
-    if not force > peak:
-        return ""
-    return f"No law can be exact: the ideal rest needs {force:.3g} N, and the motor gives {peak:.3g} N at most."
+    needs = f"the ideal rest needs {force:.3g} N, and the motor"
+    if force > device.peak_force:
+        return f"No law can be exact: {needs} gives {device.peak_force:.3g} N at most."
+    if force > WARM * device.continuous_force:
+        return (
+            f"Too hot to be held: {needs} gives {device.continuous_force:.3g} N for ever (rated_torque). Its heat is "
+            "not simulated; `ebac run` limits it."
+        )
+    return ""
 
 
 def show_fallbacks(traces: list[Trace]) -> None:
