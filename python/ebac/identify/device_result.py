@@ -113,6 +113,10 @@ class DeviceResult:
         """What the model does not explain, one sentence each."""
         turned = max(self.other_signs, key=lambda key: self.other_signs[key], default="")
         wrong = [f"This is no device: {'; '.join(self.impossible)}."] if self.impossible else []
+        if wrong and self.recording.force is None:
+            wrong.append(
+                f"The log has no {self._effort} of the hand: nobody may touch the handle while the motor moves it."
+            )
         share = 0.0 if wrong else self.explained
         if turned and seems_flipped(share, self.other_signs[turned]):
             sentence = f"The device explains {{}} of the {self._effort} where it slides"

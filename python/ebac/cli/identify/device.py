@@ -88,7 +88,7 @@ def _notes(result: DeviceResult) -> list[str]:
 
 
 def _static(result: DeviceResult) -> list[str]:
-    if result.recording.rotary:
+    if result.recording.rotary or result.impossible:
         return []
     static = result.compensation
     carried = (
