@@ -23,6 +23,7 @@ NEEDS = {
     "identify device": ["device.csv"],
     "identify gains": ["press.csv"],
     "identify log": ["arm.csv"],
+    "identify scale": ["sway.mcap"],
     "track": ["line.csv"],
     "tune": ["tca"],
     "drive signs": ["joystick.toml", "--simulated"],

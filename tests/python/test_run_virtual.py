@@ -270,7 +270,7 @@ def test_the_figure_of_a_run_has_a_panel_for_beta() -> None:
         known = Configuration.load(EXAMPLE).replace(law=law, seconds=1.5)
         figure = plot_trace(known.simulate())
         labels = [ax.get_ylabel() for ax in figure.axes]
-            assert len([label for label in labels if label]) == panels, law
+        assert len([label for label in labels if label]) == panels, law
         assert any("beta" in label for label in labels) == (panels == 4)
 
 

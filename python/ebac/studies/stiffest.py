@@ -149,7 +149,7 @@ class Stiffest:
         return StiffestRow(law=law, **values)
 
     def walls(self) -> list[dict[str, Any]]:
-        """Return one row per law and wall: how many hands meet each criterion, energy drawn, settling, stiffness on impact; SI."""
+        """Return one row per law and wall: hands that meet each criterion, energy, settling, impact; SI units."""
         return [row for rows in self._walls for row in rows]
 
     @cached_property
