@@ -18,12 +18,16 @@ class EbacByObserver {
  public:
   EbacByObserver(const EbacParams& params, const Timing& timing) EBAC_RT
       : force_(params, timing),
-        work_(observer_count(params.count, params.mass, timing.dt), params.force_noise),
+        work_(observer_count(params.count, params.mass, timing.dt), params.force_noise,
+              params.edges),
         guard_(params.damping, params.mass,
                observer_count(params.count, params.mass, timing.dt) / 2, timing.longest(), kKnown) {
   }
 
-  void retune(const EbacByObserver& next) EBAC_RT { force_.retune(next.force_); }
+  void retune(const EbacByObserver& next) EBAC_RT {
+    force_.retune(next.force_);
+    work_.retune(next.work_);
+  }
 
   /// The account begins with this tick.
   void begin(const Port& port) EBAC_RT { work_.start(port); }

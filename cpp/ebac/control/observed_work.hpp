@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "ebac/core/realtime.hpp"
 #include "ebac/core/sample.hpp"
@@ -33,13 +34,16 @@ namespace ebac {
 /// docs/explanation/observer.md has what searches find.
 class ObservedWork {
  public:
-  /// `noise`: standard deviation of the force sensor's [N].
-  ObservedWork(double count, double noise) EBAC_RT : half_(count / 2),
-                                                     play_(kPlay* noisier(noise)),
-                                                     slow_(kSlow* noisier(noise)) {}
+  /// `noise`: standard deviation of the force sensor's [N]. Without `edges` all of F is n.
+  ObservedWork(double count, double noise, bool edges = true) EBAC_RT
+      : half_(count / 2),
+        play_(edges ? kPlay * noisier(noise) : std::numeric_limits<double>::infinity()),
+        slow_(kSlow* noisier(noise)) {}
 
   /// How many times noisier than usual a force sensor is, at least 1; `noise` is its standard deviation [N].
   static double noisier(double noise) EBAC_RT { return std::max(1.0, noise / kUsual); }
+
+  void retune(const ObservedWork& next) EBAC_RT { play_ = next.play_; }
 
   /// Counts from where the observer was at the last tick, within its count: the interval up to now is still to be taken.
   void start(const Port& port) EBAC_RT {
