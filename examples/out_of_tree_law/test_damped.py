@@ -1,9 +1,13 @@
-"""The contract of every law, run on the one of this folder: `pytest test_damped.py`."""
+"""The contract of every law, run on those of this folder: `pytest test_damped.py`."""
 
-from my_laws import Damped
+from my_laws import Damped, Tank
 
 from ebac.testing import LawContract
 
 
 class TestDamped(LawContract):
     law = Damped
+
+
+class TestTank(LawContract):
+    law = Tank

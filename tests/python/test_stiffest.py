@@ -90,6 +90,15 @@ def test_up_to_a_wall_every_softer_wall_holds_and_the_next_one_fails(
     assert made.again("good")["tca-damped"] == WALLS[1:]
 
 
+def test_beside_a_wall_stands_its_stiffness_on_impact(found: Stiffest) -> None:
+    for row in found.rows:
+        walls = [w for w in found.walls() if w["law"] == row.law]
+        at = [w for w in walls if w["stiffness_N_per_m"] == row.good_N_per_m]
+        assert row.good_impact_share == (at[0]["median_impact_share"] if at else None)
+        softest = walls[0]["median_impact_share"]
+        assert softest is None or 0 < softest < 2
+
+
 @given(st.integers(1, 1000), st.integers(1, 1000))
 def test_a_share_asks_for_no_hand_too_many(hands: int, needed: int) -> None:
     """A share of 0.95 of 60 hands is 57, not 58."""
