@@ -130,3 +130,10 @@ def test_with_a_sensor_motion_is_watched_on_the_virtual_clock() -> None:
     numb = known.device.sensor.replace(scale=0.1)  # it hardly shows the hand
     with pytest.raises(ebac.LoopFault, match=r"fault 2[456]"):
         known.replace(device=known.device.replace(sensor=numb)).simulate(seconds=2.0)
+
+
+def test_a_picture_shows_no_force_that_nothing_measured() -> None:
+    for device, shown in ((ebac.Device(), True), (BARE, False)):
+        axes = ebac.simulate(SHORT.replace(device=device), "direct").plot().axes
+        labels = [line.get_label() for ax in axes for line in ax.lines]
+        assert any("measured" in str(label) for label in labels) == shown

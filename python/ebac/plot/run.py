@@ -151,14 +151,9 @@ def _position(ax: Axes, trace: Trace, axis: int, whole: Trace) -> None:
 def _force(ax: Axes, trace: Trace, axis: int, whole: Trace) -> None:
     t = trace["t"]
     asked = trace.axis("f_env", axis)
-    line(
-        ax,
-        t,
-        trace.axis("f_meas", axis),
-        color=QUANTITIES["f_meas"],
-        lw=1.4,
-        label="measured, $F_M$",
-    )
+    if trace.scenario is None or trace.scenario.device.sensor.fitted:
+        style: dict[str, Any] = {"color": QUANTITIES["f_meas"], "lw": 1.4}
+        line(ax, t, trace.axis("f_meas", axis), label="measured, $F_M$", **style)
     line(
         ax,
         t,
