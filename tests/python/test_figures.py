@@ -257,7 +257,8 @@ def test_saving_leaves_the_figure_as_it_was(run: Run, tmp_path: Path) -> None:
         figure.draw_without_rendering()
         texts = [(text.get_text(), text.get_fontsize()) for text in figure.findobj(Text)]
         widths = [line.get_linewidth() for line in figure.findobj(Line2D)]
-        columns = [ax.get_legend()._ncols for ax in figure.axes]  # type: ignore[union-attr]
+        legends = [legend for ax in figure.axes if (legend := ax.get_legend())]
+        columns = [legend._ncols for legend in legends]
         return [tuple(figure.get_size_inches()), set(texts), sorted(set(widths)), columns]
 
     figure = plot_trace(run("ebac", seconds=1.0))
