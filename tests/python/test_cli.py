@@ -780,3 +780,15 @@ def test_a_configuration_whose_wall_or_sensor_is_likely_in_a_wrong_unit_is_noted
         "sensor.counts_per_force = 1 counts/(N): a step of 1 N, usual are at most 0.25 N" in noted
     )
     assert doubtful_sensor.doubts(SensorConfig()) == []
+
+
+@pytest.mark.parametrize(
+    ("torque", "said"), [(0.053, ""), (0.03, "Too hot to be held"), (0.01, "No law can be exact")]
+)
+def test_what_the_motor_cannot_give_at_rest_is_said(torque: float, said: str) -> None:
+    """The ideal rest needs 11.7 N; 0.053, 0.03 and 0.01 N m hold 10.6, 6 and 2 N, at the peak four times that."""
+    from ebac.cli.wall.results import _beyond_the_motor
+
+    scenario = ebac.Scenario(device=ebac.Device(motor=ebac.Motor(rated_torque=torque)))
+    assert _beyond_the_motor(scenario).startswith(said)
+    assert bool(_beyond_the_motor(scenario)) == bool(said)

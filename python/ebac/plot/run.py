@@ -72,7 +72,7 @@ def plot_trace(trace: Trace) -> Picture:
     panels: list[Panel] = [_position, _force, _energy]
     if any(_has_beta(trace, axis) for axis in used):
         panels.insert(2, _beta)
-    contact = first_contact(trace, used[0]) if len(used) == 1 else None
+    contact = _first_contact(trace, used[0]) if len(used) == 1 else None
     figure = new_figure(1.5 + 8 * len(used), 1.0 + 2.4 * len(panels))
     shares = [1.0] * len(used) if contact is None else [1.0, CONTACT_SHARE]
     grid = figure.add_gridspec(len(panels), len(shares), width_ratios=shares)
@@ -95,7 +95,7 @@ def plot_trace(trace: Trace) -> Picture:
     return figure
 
 
-def first_contact(trace: Trace, axis: int) -> Trace | None:
+def _first_contact(trace: Trace, axis: int) -> Trace | None:
     """Return the rows around the first contact; None without one, or where they are much of the run."""
     t = trace["t"]
     asked = trace.axis("f_env", axis)

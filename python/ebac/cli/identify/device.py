@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING
 
 import typer
 
@@ -16,7 +15,7 @@ if TYPE_CHECKING:
 
 
 def device(
-    log: Annotated[Path, typer.Argument(help="MCAP, CSV, .mat or .npz.", show_default=False)],
+    log: given.Log,
     reading: given.Reading,
     to: reporting.ReportOptions,
     as_json: output.AsJson = False,

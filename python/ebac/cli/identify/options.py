@@ -16,6 +16,7 @@ if TYPE_CHECKING:
 LOG, FIT = "Log", "Fit"
 #: The smallest lag that is not zero [s].
 LEAST_LAG = 1e-6
+Log = Annotated[Path, typer.Argument(help="MCAP, CSV, .mat or .npz.", show_default=False)]
 Logs = Annotated[
     list[Path],
     typer.Argument(

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
@@ -15,7 +14,7 @@ if TYPE_CHECKING:
 
 
 def scale(
-    log: Annotated[Path, typer.Argument(help="MCAP, CSV, .mat or .npz.", show_default=False)],
+    log: given.Log,
     reading: given.Reading,
     mass: Annotated[
         float | None,
