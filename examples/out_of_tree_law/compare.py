@@ -10,11 +10,11 @@ from my_laws import Tank
 import ebac
 
 base = ebac.Scenario(device=ebac.Device(sensor=ebac.ForceSensor(noise=0.03)))  # N
-laws = {"tank": Tank, "ebac": "ebac", "ebac, edges off": ebac.Variant("ebac", {"edges": False})}
+laws = {"tank": Tank, "ebac": "ebac"}
 conditions = ["d1K10", "d2K20", "slow-waves-K20", "slow-press-d2K20"]
 for row in ebac.study(ebac.Operators.grid(), laws, conditions, base=base).rows:
     print(
-        f"{row.condition:16s} {row.law:15s} good {row.good}, exact and still {row.exact_and_still}, "
+        f"{row.condition:16s} {row.law:4s} good {row.good}, exact and still {row.exact_and_still}, "
         f"in time {row.settled_in_time} of 60; on impact {100 * (row.median_impact_share or 0):.0f} %; drawn in any "
         f"window {1e3 * row.most_drawn_J:.1f} mJ"
     )

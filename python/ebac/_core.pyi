@@ -6565,8 +6565,6 @@ class EBAC:
         hold the command to what the account covers, 0 to 1.
     observer : bool
         meet the world at the observer's estimate, where a run has one, 0 to 1.
-    edges : bool
-        with the observer, count a force that rests from edge to edge of the encoder; without, all force as the estimate moves, 0 to 1.
     """
     class State:
         """
@@ -6692,7 +6690,6 @@ class EBAC:
         injection: bool = True,
         guard: bool = True,
         observer: bool = True,
-        edges: bool = True,
         timing: Timing = ...,
     ) -> None: ...
     def __reduce__(self) -> tuple[typing.Any, ...]: ...
@@ -6762,11 +6759,6 @@ class EBAC:
     def decay(self) -> float:
         """
         c2 of eq. (10), 0.8 to 1
-        """
-    @property
-    def edges(self) -> bool:
-        """
-        with the observer, count a force that rests from edge to edge of the encoder; without, all force as the estimate moves, 0 to 1
         """
     @property
     def fast_stiffness(self) -> float:

@@ -385,3 +385,28 @@ def test_the_account_does_see_a_law_that_gives_energy_out(run: Any) -> None:
         trace = run(name)
         assert trace["true.energy"].min() < -1.0
         assert (trace["work"] + trace["damped"]).min() < -1.0
+
+
+# --- hands that bring little energy: the account must not take their wall away ---
+
+NOISY = ebac.Device(sensor=ebac.ForceSensor(noise=0.03))  # N
+
+
+def test_hands_that_press_slowly_keep_a_stiff_wall() -> None:
+    hands = ebac.Operators.grid()
+    study = ebac.study(hands, ["ebac"], ["slow-press-d2K20"], base=ebac.Scenario(device=NOISY))
+    [row] = study.rows
+    assert row.exact_and_still == len(hands)
+    assert row.most_drawn_J <= 1e-3
+
+
+def test_a_hand_that_sways_keeps_a_stiff_wall_for_a_minute() -> None:
+    sways = ebac.Hand(path=ebac.Sine(centre=0.03, amplitude=0.005, frequency=1.0))
+    wall = ebac.Wall(stiffness=20e3)
+    timing = ebac.Timing(delay=2)
+    scenario = ebac.Scenario(
+        device=NOISY, hand=sways, environment=wall, timing=timing, seconds=60.0
+    )
+    trace = ebac.simulate(scenario, "ebac")
+    last = trace["t"] > 55
+    assert np.sum(trace["f_applied"][last]) > 0.97 * np.sum(trace["f_env"][last])

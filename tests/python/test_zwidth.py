@@ -402,7 +402,7 @@ def test_the_command_writes_a_folder(tmp_path: Path) -> None:
 
 
 def test_words_for_the_end_of_a_wall_are_explained() -> None:
-    words = ("--law", "direct,ebac", "--delay", "1", "--points", "2", "--seconds", "1")
+    words = ("--law", "direct,ebac", "--delay", "0", "--points", "2", "--seconds", "1")
     text = " ".join(command(*words, "--no-files").split())
     assert "top: the search ends at 100 kN/m before any wall is lost" in text
     assert "100 kN/m or more" in text

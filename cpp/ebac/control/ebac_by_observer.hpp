@@ -18,16 +18,12 @@ class EbacByObserver {
  public:
   EbacByObserver(const EbacParams& params, const Timing& timing) EBAC_RT
       : force_(params, timing),
-        work_(observer_count(params.count, params.mass, timing.dt), params.force_noise,
-              params.edges),
+        work_(observer_count(params.count, params.mass, timing.dt), params.force_noise),
         guard_(params.damping, params.mass,
                observer_count(params.count, params.mass, timing.dt) / 2, timing.longest(), kKnown) {
   }
 
-  void retune(const EbacByObserver& next) EBAC_RT {
-    force_.retune(next.force_);
-    work_.retune(next.work_);
-  }
+  void retune(const EbacByObserver& next) EBAC_RT { force_.retune(next.force_); }
 
   /// The account begins with this tick.
   void begin(const Port& port) EBAC_RT { work_.start(port); }
@@ -60,9 +56,8 @@ class EbacByObserver {
 
   /// Steps 1 to 6: the force that is wanted.
   double step(const Port& port, EbacShared& shared) EBAC_RT {
-    const double slope = force_.slope();  // during the interval that ended
     force_.meet(port);
-    shared.ledger.take(port, work_, slope, shared.surface(port), shared.asked[0]);
+    shared.ledger.take(port, work_, shared.surface(port), shared.asked[0]);
     shared.ledger.lend(shared.params.observed_reserve);
     const double wanted = met(port, shared);
     shared.state.slope = force_.slope();

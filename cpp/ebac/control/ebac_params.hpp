@@ -33,7 +33,6 @@ struct EbacParams {
   bool injection = true;
   bool guard = true;
   bool observer = true;
-  bool edges = true;
 
   static constexpr EbacParams design(const DeviceFacts& facts, Timing) {
     return {.damping = facts.damping,
@@ -89,10 +88,6 @@ struct EbacParams {
         F{"guard", &EbacParams::guard, "1", "hold the command to what the account covers", 0, 1},
         F{"observer", &EbacParams::observer, "1",
           "meet the world at the observer's estimate, where a run has one", 0, 1},
-        F{"edges", &EbacParams::edges, "1",
-          "with the observer, count a force that rests from edge to edge of the encoder; without, "
-          "all force as the estimate moves",
-          0, 1},
     };
   }
 };

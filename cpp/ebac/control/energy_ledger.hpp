@@ -51,12 +51,11 @@ class EnergyLedger {
     energy_ += mean * moved + b_ * sure * sure - of_world(mean, asked) * world;
   }
 
-  /// The same with the observer's position; `slope` is that of the world [N/m].
-  void take(const Port& port, ObservedWork& work, double slope, double world,
-            double asked) EBAC_RT {
+  /// The same with the observer's position.
+  void take(const Port& port, ObservedWork& work, double world, double asked) EBAC_RT {
     const double moment = lagged_.moment(port.f_applied);
     const double mean = lagged_.hold(port.f_applied);
-    energy_ += work.step(mean, moment, port, slope, b_) - of_world(mean, asked) * world;
+    energy_ += work.step(mean, moment, port, b_) - of_world(mean, asked) * world;
   }
 
   /// From now on `reserve` [J] is lent in all. More is added at once; less is taken back as far as
