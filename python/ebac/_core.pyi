@@ -1057,6 +1057,12 @@ class Motor:
         stall current (paper, II.A) [A], 0.001 to 10000.
     rotor_inertia : float
         rotor inertia (indicative: RE 30 data sheet, from memory) [kg m^2], 0 to 1.
+    ripple : float
+        amplitude of the torque ripple, of the torque, 0 to 0.5.
+    cogging : float
+        amplitude of the cogging torque, without current [N m], 0 to 1000.
+    waves : int
+        periods of ripple and cogging per turn of the rotor, 1 to 10000.
     """
     @staticmethod
     def fields() -> list[Field]:
@@ -1073,6 +1079,9 @@ class Motor:
         rated_current: float = 1.0,
         stall_current: float = 7.45,
         rotor_inertia: float = 3.4e-06,
+        ripple: float = 0.0,
+        cogging: float = 0.0,
+        waves: int = 26,
     ) -> None: ...
     def __reduce__(self) -> tuple[typing.Any, ...]: ...
     def __repr__(self) -> str: ...
@@ -1093,6 +1102,11 @@ class Motor:
         Return the torque [N m] of a current [A].
         """
     @property
+    def cogging(self) -> float:
+        """
+        amplitude of the cogging torque, without current [N m], 0 to 1000
+        """
+    @property
     def rated_current(self) -> float:
         """
         largest continuous current (paper, II.A) [A], 0.001 to 1000
@@ -1101,6 +1115,11 @@ class Motor:
     def rated_torque(self) -> float:
         """
         continuous torque (paper, II.B) [N m], 1e-05 to 1000
+        """
+    @property
+    def ripple(self) -> float:
+        """
+        amplitude of the torque ripple, of the torque, 0 to 0.5
         """
     @property
     def rotor_inertia(self) -> float:
@@ -1117,6 +1136,11 @@ class Motor:
         """
         torque per current (paper, II.B) [N m/A], 1e-05 to 100
         """
+    @property
+    def waves(self) -> int:
+        """
+        periods of ripple and cogging per turn of the rotor, 1 to 10000
+        """
 
 class Drive:
     """
@@ -1130,6 +1154,10 @@ class Drive:
         peak over rated torque (42.4 N over 10.6 N), 0.01 to 10.
     permille : bool
         torque quantised to whole thousandths of rated (CiA 402, 0x6071), 0 to 1.
+    current_offset : float
+        current that flows where none is asked for [A], -10 to 10.
+    current_noise : float
+        standard deviation of the current's error, another one in every tick [A], 0 to 10.
     """
     @staticmethod
     def fields() -> list[Field]:
@@ -1139,7 +1167,13 @@ class Drive:
     def __eq__(self, other: typing.Any) -> bool: ...
     def __hash__(self) -> int: ...
     def __init__(
-        self, *, current_lag: float = 0.0003, peak_ratio: float = 4.0, permille: bool = False
+        self,
+        *,
+        current_lag: float = 0.0003,
+        peak_ratio: float = 4.0,
+        permille: bool = False,
+        current_offset: float = 0.0,
+        current_noise: float = 0.0,
     ) -> None: ...
     def __reduce__(self) -> tuple[typing.Any, ...]: ...
     def __repr__(self) -> str: ...
@@ -1159,6 +1193,16 @@ class Drive:
     def current_lag(self) -> float:
         """
         time constant of the current loop [s], 0 to 0.1
+        """
+    @property
+    def current_noise(self) -> float:
+        """
+        standard deviation of the current's error, another one in every tick [A], 0 to 10
+        """
+    @property
+    def current_offset(self) -> float:
+        """
+        current that flows where none is asked for [A], -10 to 10
         """
     @property
     def peak_ratio(self) -> float:

@@ -11,6 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import ebac
+from ebac.studies.conditions import conditions
 
 # --- encoder ---
 
@@ -609,3 +610,41 @@ def test_the_page_has_every_key_of_a_device_with_unit_and_default() -> None:
             for f in type(value).fields()
             if f.name not in failures
         }, name
+
+
+def test_torque_ripple_is_felt_and_not_shown() -> None:
+    """Under a current that hardly changes the true force of the motor ripples about the one that is applied."""
+    device = ebac.Device(motor=ebac.Motor(ripple=0.02, waves=13), drive=ebac.Drive(current_lag=0.0))
+    press = ebac.Hand(path=[ebac.MinimumJerk(target=0.04, duration=3.0)])
+    wall = ebac.Wall(stiffness=1e3)
+    scenario = ebac.Scenario(device=device, hand=press, environment=wall, seconds=4.0)
+    trace = ebac.simulate(scenario, "direct")
+    pressed = trace["f_applied"] > 1.0  # N
+    share = trace["true.f_motor"][pressed] / trace["f_applied"][pressed] - 1
+    assert 0.0199 < np.abs(share).max() <= 0.02 + 1e-9
+    other = ebac.simulate(scenario.replace(seed=2), "direct")
+    assert not np.array_equal(other["true.f_motor"], trace["true.f_motor"])
+
+
+def test_an_offset_of_the_current_pushes_the_handle_where_nothing_is_asked_for() -> None:
+    device = ebac.Device(drive=ebac.Drive(current_offset=0.01))
+    scenario = ebac.Scenario(device=device, environment=ebac.Free(), seconds=1.0)
+    trace = ebac.simulate(scenario, "direct")
+    assert not trace["f_applied"].any()
+    assert trace["true.f_motor"][-1] == pytest.approx(device.force(0.01))
+
+
+@pytest.mark.parametrize(
+    ("name", "motor", "drive"),
+    [
+        ("torque-ripple", {"ripple": 5e-3}, {}),
+        ("torque-ripple-d2K20", {"ripple": 5e-3}, {}),
+        ("current-noise", {}, {"current_noise": 5e-3}),
+        ("current-offset", {}, {"current_offset": 10e-3}),
+    ],
+)
+def test_errors_of_the_motor_are_conditions(name: str, motor: Any, drive: Any) -> None:
+    [condition] = conditions([name])
+    [made] = condition.scenarios(ebac.Operators.grid()[:1], ebac.Scenario())
+    assert made.device == ebac.Device(motor=ebac.Motor(**motor), drive=ebac.Drive(**drive))
+    assert made.device.facts == ebac.Device().facts, "no law knows of them"

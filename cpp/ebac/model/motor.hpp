@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 
 #include "ebac/core/fields.hpp"
 #include "ebac/core/realtime.hpp"
@@ -14,9 +15,19 @@ struct Motor {
   double rated_current = 1.0;       // A
   double stall_current = 7.45;      // A
   double rotor_inertia = 3.4e-6;    // kg m^2
+  double ripple = 0;                // share of the torque
+  double cogging = 0;               // N m
+  int waves = 26;                   // per turn, of ripple and cogging
 
   double current(double torque) const EBAC_RT { return torque / torque_constant; }
   double torque(double current) const EBAC_RT { return current * torque_constant; }
+
+  bool uneven() const EBAC_RT { return ripple != 0 || cogging != 0; }
+  /// Torque under `current` at the rotor's `angle` [rad], where it is uneven.
+  double uneven_torque(double current, double angle) const EBAC_RT {
+    const double wave = std::sin(waves * angle);
+    return torque(current) * (1 + ripple * wave) + cogging * wave;
+  }
 
   static constexpr auto fields() {
     using F = Field<Motor>;
@@ -30,6 +41,11 @@ struct Motor {
         F{"stall_current", &Motor::stall_current, "A", "stall current (paper, II.A)", 1e-3, 1e4},
         F{"rotor_inertia", &Motor::rotor_inertia, "kg m^2",
           "rotor inertia (indicative: RE 30 data sheet, from memory)", 0, 1},
+        F{"ripple", &Motor::ripple, "1", "amplitude of the torque ripple, of the torque", 0, 0.5},
+        F{"cogging", &Motor::cogging, "N m", "amplitude of the cogging torque, without current", 0,
+          1e3},
+        F{"waves", &Motor::waves, "1", "periods of ripple and cogging per turn of the rotor", 1,
+          10000},
     };
   }
 };
@@ -46,6 +62,8 @@ struct Drive {
   double current_lag = 3e-4;  // s
   double peak_ratio = 4.0;    // peak torque over rated torque
   bool permille = false;      // torque in whole thousandths of rated, as CiA 402 object 0x6071
+  double current_offset = 0;  // A
+  double current_noise = 0;   // A
 
   double peak_current(const Motor& motor) const EBAC_RT {
     const double wanted = motor.current(peak_ratio * motor.rated_torque);
@@ -60,6 +78,10 @@ struct Drive {
           0.01, 10},
         F{"permille", &Drive::permille, "1",
           "torque quantised to whole thousandths of rated (CiA 402, 0x6071)", 0, 1},
+        F{"current_offset", &Drive::current_offset, "A",
+          "current that flows where none is asked for", -10, 10},
+        F{"current_noise", &Drive::current_noise, "A",
+          "standard deviation of the current's error, another one in every tick", 0, 10},
     };
   }
 };

@@ -26,6 +26,22 @@ double SimulatedDevice::whole_permille(double current) const EBAC_RT {
   return one * (std::round(current / one) + 0.0);  // a whole number has no negative zero
 }
 
+/// The currents that would give an exact motor its torque over the next interval: offset and noise of the drive are added,
+/// ripple and cogging are those of the angle at its beginning, from a place of the rotor that the seed draws.
+template <class P>
+Axes SimulatedDevice::torque_currents(const P& plant, std::size_t axes) EBAC_RT {
+  const Motor& motor = device_.motor;
+  const Drive& drive = device_.drive;
+  Axes currents = applied_;
+  for (std::size_t i = 0; i < axes; ++i) {
+    double& current = currents[static_cast<Eigen::Index>(i)];
+    current += drive.current_offset;
+    if (drive.current_noise > 0) current += drive.current_noise * random_.normal();
+    current = motor.current(motor.uneven_torque(current, plant.motor_angle(i) + rotor_[i]));
+  }
+  return currents;
+}
+
 /// The force, by the records of a sensor that is not prompt.
 template <class P>
 void SimulatedDevice::feel(const P& plant, Reading& reading) EBAC_RT {
@@ -65,10 +81,17 @@ template <class P>
 Reading SimulatedDevice::step(P& plant, const Command& command, std::size_t axes) EBAC_RT {
   if (command.elapsed > 0) {
     drive(command, axes);
-    if constexpr (std::same_as<P, ExactPlant>) {
-      plant.advance(applied_, t_, quanta(command.elapsed), axes);
+    const auto advance = [&](const Axes& currents) EBAC_RT {
+      if constexpr (std::same_as<P, ExactPlant>) {
+        plant.advance(currents, t_, quanta(command.elapsed), axes);
+      } else {
+        plant.advance(currents, t_, quanta(command.elapsed));
+      }
+    };
+    if (exact_) {
+      advance(applied_);
     } else {
-      plant.advance(applied_, t_, quanta(command.elapsed));
+      advance(torque_currents(plant, axes));
     }
     t_ += command.elapsed;
   }

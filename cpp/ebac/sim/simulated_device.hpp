@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <string_view>
 #include <utility>
 #include <variant>
@@ -30,12 +31,14 @@ class SimulatedDevice {
         random_(setup.seed),
         axes_(static_cast<std::size_t>(setup.device.axes())),
         peak_current_(setup.device.drive.peak_current(setup.device.motor)),
+        exact_(is_exact(setup.device)),
         prompt_(setup.device.sensor.prompt()),
         records_(setup.device.sensor, setup.timing.dt),
         tick_(setup.timing.dt),
         delay_(static_cast<std::size_t>(setup.timing.delay)) {
     Noise chance(setup.seed, /*stream=*/2);
     for (double& phase : phase_) phase = 0.5 * device_.encoder.count() * chance.symmetric();
+    for (double& rotor : rotor_) rotor = std::numbers::pi * chance.symmetric();
   }
 
   Reading exchange(const Command& command) EBAC_RT;
@@ -58,7 +61,15 @@ class SimulatedDevice {
     return SteppedPlant(s.device, s.hand, s.timing.dt);
   }
 
+  /// Whether the motors turn the currents that are set into torque without an error.
+  static bool is_exact(const DeviceModel& device) {
+    return !device.motor.uneven() && device.drive.current_offset == 0 &&
+           device.drive.current_noise == 0;
+  }
+
   void drive(const Command& command, std::size_t axes) EBAC_RT;
+  template <class P>
+  Axes torque_currents(const P& plant, std::size_t axes) EBAC_RT;
   std::int64_t quanta(double seconds) const EBAC_RT;
   double whole_permille(double current) const EBAC_RT;
   template <class P>
@@ -74,6 +85,7 @@ class SimulatedDevice {
   Noise random_;
   std::size_t axes_;
   double peak_current_;  // A
+  bool exact_;           // motors and drives
   bool prompt_;          // the force sensor
   ForceRecords records_;
   std::array<double, kMaxAxes> shown_{};  // N, by the last record
@@ -84,6 +96,7 @@ class SimulatedDevice {
   std::size_t head_ = 0;
   Axes applied_ = Axes::Zero();           // A, over the last interval
   std::array<double, kMaxAxes> phase_{};  // rad, of the motor within its first count
+  std::array<double, kMaxAxes> rotor_{};  // rad, where its ripple begins
 };
 
 static_assert(Device<SimulatedDevice>);

@@ -199,6 +199,11 @@ _FAILING = [
     _robust("cable", "a cable of 100 kN/m between motor and lever", to.device("mechanics", cable_stiffness=1e5)),
     _robust("backlash", "a cable of 100 kN/m with 0.05 mm of play",
             to.device("mechanics", cable_stiffness=1e5, backlash=5e-5)),
+    _robust("torque-ripple", "the motor's torque ripples by 0.5 %, 26 times a turn", to.device("motor", ripple=5e-3)),
+    _robust("torque-ripple-d2K20", "the same at 2 samples of delay and 20 kN/m",
+            to.device("motor", ripple=5e-3), at=(2, 2, 20e3)),
+    _robust("current-noise", "the current of the drive has 5 mA of noise", to.device("drive", current_noise=5e-3)),
+    _robust("current-offset", "10 mA of current that the drive does not show", to.device("drive", current_offset=0.01)),
 ]  # fmt: skip
 _TOLD = ("told-mass+50", "told-mass-50", "told-delay-1-of-2")
 _OTHER = (
