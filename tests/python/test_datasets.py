@@ -131,10 +131,9 @@ def test_hands_and_joystick_are_read_back(tmp_path: Path) -> None:
     people = Operators.from_csv(datasets.write("hands", tmp_path))
     assert len(people.hands()) == 12
     assert np.array_equal(people.m_kg, datasets.hands().m_kg)
-    path = datasets.write("joystick", tmp_path)
-    assert path.read_bytes() == (ROOT / "examples" / "joystick.toml").read_bytes()
-    path = datasets.write("joystick-3", tmp_path)
-    assert path.read_bytes() == (ROOT / "examples" / "joystick-3.toml").read_bytes()
+    for name in ("handle", "joystick", "joystick-3"):
+        path = datasets.write(name, tmp_path)
+        assert path.read_bytes() == (ROOT / "examples" / path.name).read_bytes()
     assert datasets.joystick().law == "ebac"
 
 

@@ -220,7 +220,9 @@ def test_no_profile_holds_a_torque_without_its_loop() -> None:
         (node,) = network.nodes
         deadline = any(pdo.event > 0 for pdo in node.profile.pdos)
         assert drives.hold_time(node.profile) == (0.005 if deadline else 0.1)
-        assert deadline == (name in ("copley-accelnet", "copley-xenus", "joystick", "joystick-3"))
+        assert deadline == (
+            name in ("copley-accelnet", "copley-xenus", "handle", "joystick", "joystick-3")
+        )
         assert node.profile.values["drive.connection_lost"] == 1
 
 

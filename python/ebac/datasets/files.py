@@ -212,6 +212,14 @@ DATASETS: dict[str, Dataset] = {
             _write=_hands,
         ),
         Dataset(
+            name="handle",
+            file="handle.toml",
+            about="The configuration of a device with one axis, for hardware and for a simulated drive.",
+            data=False,
+            commands=("ebac run handle.toml --simulated",),
+            _write=_joystick,
+        ),
+        Dataset(
             name="joystick",
             file="joystick.toml",
             about="The configuration of the paper's joystick, for hardware and for simulated drives.",

@@ -59,12 +59,12 @@ def joystick() -> Configuration:
 
 
 def joystick_text(name: str = "joystick") -> str:
-    """Return a configuration, such as "joystick" or "joystick-3" with three axes, as TOML text with comments.
+    """Return a configuration, "handle", "joystick" or "joystick-3" with 1, 2 or 3 axes, as TOML text with comments.
 
     Parameters
     ----------
     name : str
-        `joystick` or `joystick-3`.
+        `handle`, `joystick` or `joystick-3`.
 
     Raises
     ------
