@@ -133,6 +133,19 @@ def _joystick(path: Path, note: str) -> None:
     path.write_text(others.joystick_text(path.stem), encoding="utf-8")
 
 
+def _configuration(name: str, about: str, command: str = "") -> Dataset:
+    """Return a configuration for drives, by default one that `ebac run` takes."""
+    file = f"{name}.toml"
+    return Dataset(
+        name=name,
+        file=file,
+        about=about,
+        data=False,
+        commands=(command or f"ebac run {file} --simulated",),
+        _write=_joystick,
+    )
+
+
 def _engine(path: Path, note: str) -> None:
     path.write_text(
         Path(__file__).with_name("engine.py").read_text(encoding="utf-8"), encoding="utf-8"
@@ -211,29 +224,17 @@ DATASETS: dict[str, Dataset] = {
             commands=("ebac study --population hands.csv --law ebac",),
             _write=_hands,
         ),
-        Dataset(
-            name="handle",
-            file="handle.toml",
-            about="The configuration of a device with one axis, for hardware and for a simulated drive.",
-            data=False,
-            commands=("ebac run handle.toml --simulated",),
-            _write=_joystick,
+        _configuration(
+            "handle",
+            "The configuration of a device with one axis, for hardware and for a simulated drive.",
         ),
-        Dataset(
-            name="joystick",
-            file="joystick.toml",
-            about="The configuration of the paper's joystick, for hardware and for simulated drives.",
-            data=False,
-            commands=("ebac run joystick.toml --simulated",),
-            _write=_joystick,
+        _configuration(
+            "joystick",
+            "The configuration of the paper's joystick, for hardware and for simulated drives.",
         ),
-        Dataset(
-            name="joystick-3",
-            file="joystick-3.toml",
-            about="The same for three axes: its lever slides, three drives, a ball to feel.",
-            data=False,
-            commands=("ebac run joystick-3.toml --simulated",),
-            _write=_joystick,
+        _configuration(
+            "joystick-3",
+            "The same for three axes: its lever slides, three drives, a ball to feel.",
         ),
         Dataset(
             name="engine",
@@ -244,13 +245,10 @@ DATASETS: dict[str, Dataset] = {
             _write=_engine,
         ),
         *(
-            Dataset(
-                name=f"gastroscope-{part}",
-                file=f"gastroscope-{part}.toml",
-                about=f"The configuration of a teleoperated gastroscope's {what}, for real and for simulated drives.",
-                data=False,
-                commands=(command,),
-                _write=_joystick,
+            _configuration(
+                f"gastroscope-{part}",
+                f"The configuration of a teleoperated gastroscope's {what}, for real and for simulated drives.",
+                command,
             )
             for part, what, command in (
                 (
