@@ -154,8 +154,26 @@ def test_a_note_says_what_a_condition_replaces_of_a_scenario(tmp_path: Path) -> 
     ablation = ("ablation", *few, "--population", str(hands), "--json", "--scenario", str(file))
     text = told(*ablation)
     assert "the conditions replace device.mechanics.damping = 5 N s/m by 2; " in text
+    assert told(*study) == "", "as it is given"
     ebac.Scenario(seconds=3).save(file)
-    assert told(*study) == ""
+    assert told(*study, "-c", "d1K10") == ""
+
+
+@pytest.mark.parametrize(
+    "command", [["study"], ["worst", "--evaluations", "40", "--family", "impact"]]
+)
+def test_a_scenario_stays_as_it_is_unless_a_condition_is_asked_for(
+    tmp_path: Path, command: list[str]
+) -> None:
+    file = tmp_path / "mine.toml"
+    mine = ebac.Scenario(environment=ebac.Wall(stiffness=3e3), timing=ebac.Timing(delay=2))
+    mine.save(file)
+    [as_given] = conditions(["as-given"])
+    assert as_given.change(mine) == mine
+    words = [*command, "--law", "tca", "--json"]
+    given = CliRunner().invoke(app, [*words, "--scenario", str(file)])
+    assert '"condition": "as-given"' in given.stdout, given.stderr
+    assert '"condition": "d1K10"' in CliRunner().invoke(app, words).stdout
 
 
 def test_a_law_with_tuned_parameters_is_explained() -> None:

@@ -65,6 +65,15 @@ def conditions(text: str, *, panel: str, default: str | bool = True) -> Any:
     )
 
 
+#: The condition where none is asked for, in words.
+USUAL_CONDITION = "d1K10; as-given with --scenario"
+
+
+def usual_condition(run: RunOptions) -> str:
+    """Return the condition where none is asked for: a scenario that is given stays as it is."""
+    return "d1K10" if run.scenario is None else "as-given"
+
+
 HandName: TypeAlias = Annotated[
     str | None,
     option(

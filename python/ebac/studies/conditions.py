@@ -73,6 +73,14 @@ def _cell(name: str, delay: int, damping: float, kilo: float) -> Condition:
     return Condition(name=name, summary=summary, change=cell(delay, damping, 1e3 * kilo))
 
 
+#: Nothing but the hand is changed; a hand on it begins where the population says.
+AS_GIVEN = Condition(
+    name="as-given",
+    summary="delay, device and wall as in the scenario",
+    change=to.together(),
+)
+
+
 def wall_of(stiffness: float) -> Condition:
     """Return the condition that changes the stiffness of the wall [N/m] and nothing else."""
     kilo = f"{1e-3 * stiffness:g}"
@@ -253,7 +261,17 @@ _HELD = [
 #: Every condition by its name.
 CONDITIONS: dict[str, Condition] = {
     c.name: c
-    for c in (*_FIVE, *_CELLS, *_ROBUSTNESS, *_FAILING, *_HANDS, *_DAMPED, *_HOLDS, *_HELD)
+    for c in (
+        AS_GIVEN,
+        *_FIVE,
+        *_CELLS,
+        *_ROBUSTNESS,
+        *_FAILING,
+        *_HANDS,
+        *_DAMPED,
+        *_HOLDS,
+        *_HELD,
+    )
 }
 
 #: Shorter names of conditions: d2K20 is d2b2K20, as d1K10 has a damping of 2 N s/m.

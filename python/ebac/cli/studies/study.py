@@ -40,7 +40,7 @@ def study(
             "A condition or a group of them, see `ebac conditions`, or one written out, such as d2K15, or K15 to "
             "change the stiffness of the wall only; several separated by commas.",
             panel=_WHAT,
-            default="d1K10",
+            default=options.USUAL_CONDITION,
         ),
     ] = None,
     threads: options.Threads = None,
@@ -81,7 +81,7 @@ def study(
         people = hands.operators(approach)
         given: dict[str, Any] = {
             "base": options.scenario_of(device, length),
-            "conditions": by_name.condition_names(condition or ["d1K10"]),
+            "conditions": by_name.condition_names(condition or [options.usual_condition(length)]),
             "seed": hands.seed,
             "threads": threads,
         }

@@ -31,13 +31,14 @@ def worst(
         ),
     ] = None,
     condition: Annotated[
-        str,
+        str | None,
         options.conditions(
             "A condition of device, timing or wall, see `ebac conditions`, or one written out, as d2K15, or K15 to "
             "change the stiffness of the wall only.",
             panel=_WHAT,
+            default=options.USUAL_CONDITION,
         ),
-    ] = "d1K10",
+    ] = None,
     family: Annotated[
         list[str] | None,
         typer.Option(
@@ -89,7 +90,7 @@ def worst(
         name = by_name.one_law(law)
         chosen = Variant(name, setting.parse_change(_one(change))) if change else name
         base = options.scenario_of(device, length)
-        wanted = by_name.one_condition(condition)
+        wanted = by_name.one_condition(condition or options.usual_condition(length))
         replaced.tell(base, [wanted])
         families = output.words(family)
         folder = to.folder("worst", as_json=as_json)
