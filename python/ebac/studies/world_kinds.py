@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from math import acos, degrees, pi
+from math import acos, atan2, degrees, pi
 
 import numpy as np
 
 from ebac._core import Cylinder, Plane, Sphere
-from ebac._util.arrays import Values
+from ebac._util.arrays import Values, length
 from ebac.worlds.solids import Cavity, Placed, Solid
 
 #: Least and largest angle between two directions [deg]: neither the same plane twice nor two planes face to face.
@@ -38,7 +38,7 @@ def direction(random: np.random.Generator, axes: int) -> Values:
     """Return a unit vector, shape (3,), evenly over all directions of 2 or 3 axes."""
     vector = np.zeros(3)
     vector[:axes] = random.normal(size=axes)
-    return vector / np.linalg.norm(vector)
+    return vector / length(vector)
 
 
 def _two_directions(random: np.random.Generator, axes: int) -> tuple[Values, Values]:
@@ -46,7 +46,7 @@ def _two_directions(random: np.random.Generator, axes: int) -> tuple[Values, Val
     one = direction(random, axes)
     while True:
         other = direction(random, axes)
-        if APART[0] < degrees(acos(np.clip(one @ other, -1, 1))) < APART[1]:
+        if APART[0] < degrees(acos(np.clip((one * other).sum(), -1, 1))) < APART[1]:
             return one, other
 
 
@@ -88,10 +88,10 @@ def _plane(random: np.random.Generator, into: Values) -> Placed:
 def _turned(into: Values) -> tuple[float, float, float]:
     """Return the rotation vector [rad] that turns the x axis, into which a `Plane` begins, to a direction."""
     axis = np.cross([1.0, 0.0, 0.0], into)
-    sine = float(np.linalg.norm(axis))
+    sine = length(axis)
     if sine < 1e-9:
         return (0.0, 0.0, 0.0 if into[0] > 0 else pi)
-    return _floats(axis / sine * np.arctan2(sine, into[0]))
+    return _floats(axis / sine * atan2(sine, into[0]))
 
 
 def _at(solid: Solid, place: Values) -> Placed:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from math import pi, sqrt
+from math import acos, cos, pi, sin, sqrt
 from typing import Any
 
 import numpy as np
@@ -22,6 +22,7 @@ from ebac._core import (
     Torus,
 )
 from ebac._util.arguments import require, unknown
+from ebac._util.arrays import length
 from ebac.worlds.height_field import HeightField
 from ebac.worlds.mesh import Mesh
 from ebac.worlds.solids import Cavity, Difference, Placed, Solid, Textured, Tube, Union
@@ -50,9 +51,9 @@ def _corner() -> Union:
     planes: list[Solid] = []
     for k in range(3):
         around = 2 * pi * k / 3
-        normal = np.array([-1.0, sqrt(2) * np.cos(around), sqrt(2) * np.sin(around)]) / sqrt(3)
+        normal = np.array([-1.0, sqrt(2) * cos(around), sqrt(2) * sin(around)]) / sqrt(3)
         axis = np.cross([-1.0, 0.0, 0.0], normal)
-        turned = axis / np.linalg.norm(axis) * np.arccos(-normal[0])
+        turned = axis / length(axis) * acos(-normal[0])
         about_x, about_y, about_z = map(float, turned)
         planes.append(Placed(Plane(), (0.0, 0.0, 0.0), (about_x, about_y, about_z)))
     return Union(*planes)

@@ -1,0 +1,37 @@
+"""Worlds that are computed in Python are the same to the bit, whichever kernels NumPy's libraries choose."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+
+import pytest
+
+SHOWN = """
+import numpy as np
+from ebac.studies.random_scenario import DEVICES
+from ebac.studies.world_kinds import KINDS
+from ebac.worlds.presets import PRESETS
+for name, preset in PRESETS.items():
+    if not preset.extra:
+        print(name, preset.solid())
+for name, kind in KINDS.items():
+    for axes in (2, 3):
+        print(name, axes, kind.draw(np.random.default_rng(1), axes))
+"""
+
+
+def shown(kernels: str) -> str:
+    """Return all worlds as text, in a process whose OpenBLAS takes the kernels of one processor."""
+    where = {**os.environ, "OPENBLAS_CORETYPE": kernels}
+    return subprocess.run(
+        [sys.executable, "-c", SHOWN], env=where, capture_output=True, text=True, check=True
+    ).stdout
+
+
+@pytest.mark.parametrize("kernels", ["Haswell", "SkylakeX"])
+def test_a_world_has_the_same_bits_on_every_processor(kernels: str) -> None:
+    plain = shown("Prescott")
+    assert len(plain.splitlines()) > 10
+    assert shown(kernels) == plain
