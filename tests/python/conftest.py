@@ -79,14 +79,14 @@ def pytest_xdist_auto_num_workers() -> int | None:
 
 @pytest.hookimpl(tryfirst=True)
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Make slow tests weekly but for the first and the last of their sets of parameters, unless `slow(every=True)`."""
+    """Make slow tests weekly but for the first of their sets of parameters, unless `slow(every=True)`."""
     sets: dict[str, list[pytest.Item]] = {}
     for item in items:
         slow = item.get_closest_marker("slow")
         if slow and not slow.kwargs.get("every"):
             sets.setdefault(item.nodeid.partition("[")[0], []).append(item)
     for same in sets.values():
-        for item in same[1:-1]:
+        for item in same[1:]:
             item.add_marker(pytest.mark.weekly)
 
 

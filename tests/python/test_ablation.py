@@ -166,6 +166,7 @@ def test_a_row_for_the_law_each_piece_and_each_law_beside(few: Ablation) -> None
 
 
 @pytest.mark.slow
+@pytest.mark.weekly
 def test_a_measure_is_what_a_study_says(few: Ablation) -> None:
     named = {(row.law, row.condition): row for row in few.study.rows}
     for row in (few.rows[0], few.rows[-1]):

@@ -196,6 +196,7 @@ def test_ctrl_c_that_python_drops_is_sent_again(tmp_path: Path) -> None:
 
 
 @pytest.mark.slow
+@pytest.mark.weekly
 def test_what_was_interrupted_is_resumed(tmp_path: Path) -> None:
     words = "map --side 30 --seconds 5"  # long enough to be interrupted after its first points
     code, said, _ = interrupted(words, tmp_path, kept="ebac-map/sweep-ebac/*.npz")

@@ -24,6 +24,7 @@ def live() -> Iterator[Any]:
 
 
 @pytest.mark.slow
+@pytest.mark.weekly
 def test_what_runs_in_real_time_is_what_is_simulated(live: Any) -> None:
     time.sleep(1.0)
     live.session.pause()

@@ -316,6 +316,7 @@ def test_damped_walls_are_as_good_as_without_a_law(hands: ebac.Operators) -> Non
 
 
 @pytest.mark.slow
+@pytest.mark.weekly
 @pytest.mark.parametrize("hands", MANY)
 def test_a_wall_held_for_ten_minutes_leaks_little(hands: ebac.Operators) -> None:
     """Measured on 60 hands: -0.58 mJ and -8.7 uW; on the light hand of `hold-10min` 0 mJ and -5.1 uW."""
@@ -343,6 +344,7 @@ def test_stiff_walls_are_held_for_two_minutes(hands: ebac.Operators) -> None:
 
 
 @pytest.mark.slow
+@pytest.mark.weekly
 @pytest.mark.parametrize(
     "hands",
     [

@@ -141,6 +141,7 @@ def test_decimal_commas_are_read(tmp_path: Path) -> None:
 
 
 @pytest.mark.slow
+@pytest.mark.weekly
 def test_a_wall_that_pushes_unrecorded_is_no_device(tmp_path: Path) -> None:
     """The hand's force alone, while a law pushed: nothing is determined, and nothing runs away."""
     hand = ebac.Hand(path=[ebac.Tapping()])

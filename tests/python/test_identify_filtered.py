@@ -34,6 +34,7 @@ def test_a_position_behind_a_filter_gets_a_remark(number: int) -> None:
 
 
 @pytest.mark.slow  # 6 s
+@pytest.mark.weekly
 def test_a_force_that_is_held_gets_a_remark_where_a_recording_is_made_of_arrays() -> None:
     recording, target, truth = log(14)
     assert recording.force is not None

@@ -382,6 +382,7 @@ def test_the_command_takes_device_wall_and_delay_of_a_file(
 
 
 @pytest.mark.slow
+@pytest.mark.weekly
 @pytest.mark.usefixtures("few_looks")
 def test_the_command_prints_what_it_guessed_of_the_log(
     tmp_path: Path, trace: ebac.Trace, monkeypatch: pytest.MonkeyPatch
@@ -411,6 +412,7 @@ def test_the_command_refuses_a_law_without_force_loop(tmp_path: Path, trace: eba
 
 
 @pytest.mark.slow
+@pytest.mark.weekly
 @pytest.mark.usefixtures("few_looks")
 def test_the_check_shows_units_and_gives_plain_numbers(monkeypatch: pytest.MonkeyPatch) -> None:
     cases = check_gains(1, seed=4, evaluations=3)

@@ -31,6 +31,7 @@ def fit(log: RecordedArm, folder: Path) -> ArmResult:
 
 
 @pytest.mark.slow
+@pytest.mark.weekly
 def test_jitter_does_not_make_a_log_that_contains_nothing_informative(tmp_path: Path) -> None:
     """All three were said to be determined to 1 %, half of what is true: only their ratios were."""
     result = fit(recorded(67, level="rough", task="path"), tmp_path)

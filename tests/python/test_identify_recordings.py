@@ -250,6 +250,7 @@ def test_a_hand_at_the_bound_of_the_search_is_not_determined(tmp_path: Path) -> 
 
 
 @pytest.mark.slow
+@pytest.mark.weekly
 def test_a_hand_that_explains_less_than_none_is_an_error(tmp_path: Path) -> None:
     t, x, force = shaken(2.0)
     path = written(tmp_path, t=t, x=x, force=-force)

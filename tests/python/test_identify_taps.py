@@ -84,6 +84,7 @@ def test_a_wrong_target_is_not_taken_for_a_wrong_sign(tmp_path: Path) -> None:
 
 
 @pytest.mark.slow
+@pytest.mark.weekly
 def test_a_metronome_that_is_wrong_is_not_taken_for_a_wrong_sign() -> None:
     """The spectra by a target of 1.0 Hz, where the hand taps at 0.8 Hz, showed a hand by the other sign only."""
     result = fit_arm(log(1, 0.0), Target.tapping(1.0, SECONDS))

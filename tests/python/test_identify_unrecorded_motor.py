@@ -104,6 +104,7 @@ def test_a_force_is_late_by_what_the_lag_leaves_of_a_sawtooth(lag: float) -> Non
 
 
 @pytest.mark.slow
+@pytest.mark.weekly
 def test_the_command_prints_the_note(tmp_path: Path) -> None:
     recording = pushed(1, 0.35, 6.0, 300.0, 0.0)
     rows = np.column_stack([recording.t, recording.x, recording.force])

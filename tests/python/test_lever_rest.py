@@ -29,6 +29,7 @@ def on_lever(
 
 
 @pytest.mark.slow
+@pytest.mark.weekly
 @pytest.mark.parametrize("lever", LEVERS)
 @given(
     gravity=st.floats(-9.81, 9.81),

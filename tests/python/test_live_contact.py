@@ -110,6 +110,7 @@ def test_a_slider_that_moves_as_the_hand_comes_in_takes_no_wall_away(
 @pytest.mark.parametrize("observer", [True, False])
 @pytest.mark.parametrize("every", [0.016, 0.2], ids=["fast", "slow"])
 @pytest.mark.slow
+@pytest.mark.weekly
 def test_a_slider_that_moves_to_and_fro_takes_no_wall_away(
     tmp_path: Path, law: str, observer: bool, every: float
 ) -> None:

@@ -173,6 +173,7 @@ def large(path: Path, trace: ebac.Trace, rows: int) -> Path:
 
 @pytest.mark.skipif(sys.platform != "linux", reason="reads /proc")
 @pytest.mark.slow
+@pytest.mark.weekly
 def test_memory_is_that_of_the_part_asked_for(trace: ebac.Trace, tmp_path: Path) -> None:
     path = large(tmp_path / "large.mcap", trace, 100_000)
     trace.save(tmp_path / "small.mcap")
@@ -251,6 +252,7 @@ def test_a_small_file_never_unpacks_to_a_large_one(trace: ebac.Trace, tmp_path: 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="reads /proc")
 @pytest.mark.slow
+@pytest.mark.weekly
 def test_chunks_that_unpack_to_much_are_unpacked_few_at_a_time(
     trace: ebac.Trace, tmp_path: Path
 ) -> None:

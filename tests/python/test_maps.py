@@ -118,6 +118,7 @@ stability_map(
 
 
 @pytest.mark.slow
+@pytest.mark.weekly
 def test_a_map_that_was_killed_half_way_continues_and_has_the_same_bits(tmp_path: Path) -> None:
     out = tmp_path / "kept"
     worker = subprocess.Popen([sys.executable, "-c", KILLED, str(out)])

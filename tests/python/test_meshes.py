@@ -147,6 +147,7 @@ def test_hills_are_where_the_heights_say() -> None:
 
 
 @pytest.mark.slow
+@pytest.mark.weekly
 def test_more_triangles_make_the_same_grid(tmp_path: Path) -> None:
     from trimesh.creation import icosphere
 

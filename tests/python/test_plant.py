@@ -156,6 +156,7 @@ def test_plant_agrees_with_scipy_over_the_reference_scenario(
 
 
 @pytest.mark.slow
+@pytest.mark.weekly
 @pytest.mark.parametrize("friction", [0.0, 0.4])
 def test_plant_agrees_with_scipy_under_weight_noise_and_jitter(friction: float) -> None:
     scenario = ebac.Scenario(
@@ -173,6 +174,7 @@ def test_plant_agrees_with_scipy_under_weight_noise_and_jitter(friction: float) 
 
 
 @pytest.mark.slow
+@pytest.mark.weekly
 @pytest.mark.parametrize("friction", [0.0, 1.0])
 def test_plant_agrees_with_scipy_on_a_moving_target(friction: float) -> None:
     scenario = ebac.Scenario(

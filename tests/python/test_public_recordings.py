@@ -50,6 +50,7 @@ def arm_log(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 @pytest.mark.slow
+@pytest.mark.weekly
 def test_the_twin_of_the_axis_gives_the_published_parameters(axis_log: Path) -> None:
     """Without --force-constant a drive in V could not be read."""
     words = ["identify", "device", str(axis_log), *AXIS, "--force-constant", str(GTAU)]
@@ -180,6 +181,7 @@ def test_the_robot_that_a_hand_leads_is_what_it_renders(arm_log: Path) -> None:
 
 
 @pytest.mark.slow
+@pytest.mark.weekly
 @pytest.mark.parametrize("told", [False, True])
 def test_a_hand_that_leads_a_robot_which_only_follows_is_not_determined(
     arm_log: Path, told: bool
@@ -194,6 +196,7 @@ def test_a_hand_that_leads_a_robot_which_only_follows_is_not_determined(
 
 
 @pytest.mark.slow
+@pytest.mark.weekly
 def test_a_hand_whose_robot_pushes_back_is_determined(tmp_path: Path) -> None:
     saved(tmp_path / ARMS, trials(pushed=True))
     recording = identify.load(tmp_path / ARMS, columns=of_trial(2, 0), rate=1000)

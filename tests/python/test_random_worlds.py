@@ -100,6 +100,7 @@ def test_a_hand_that_follows_a_yielding_surface_keeps_it(where: tuple[str, str, 
 
 
 @pytest.mark.slow
+@pytest.mark.weekly
 def test_threads_more_hands_and_other_rows_change_no_hand() -> None:
     few = random_worlds(kinds=["balls"], devices=["2-axes"], hands=3, moving=True, threads=1)
     more = random_worlds(

@@ -270,6 +270,7 @@ def test_a_column_no_message_can_have(short: Path, tmp_path: Path) -> None:
 
 
 @pytest.mark.slow
+@pytest.mark.weekly
 def test_a_long_log_is_never_in_memory(tmp_path: Path) -> None:
     rows = 40_000
     names = [f"a{i}" for i in range(98)]

@@ -115,6 +115,7 @@ def test_an_executor_of_processes_gives_the_same_bits(local: SweepResult) -> Non
 
 @pytest.mark.filterwarnings("ignore")
 @pytest.mark.slow
+@pytest.mark.weekly
 def test_a_dask_cluster_of_two_processes_gives_the_same_bits(local: SweepResult) -> None:
     distributed = pytest.importorskip("distributed")
     cluster = distributed.LocalCluster(

@@ -53,6 +53,7 @@ def test_hands_force_swing_and_energy_of_the_rivals_stand_in_one_table(
 
 
 @pytest.mark.slow
+@pytest.mark.weekly
 def test_what_stands_in_the_pages_of_60_hands_is_what_the_study_gives(tmp_path: Path) -> None:
     source = printed.Printed(folder=tmp_path / "kept")
     source.folder.mkdir()

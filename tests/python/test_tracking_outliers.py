@@ -162,6 +162,7 @@ def test_twelve_points_are_enough(shape: str, seed: int, share: float) -> None:
 @settings(max_examples=10)
 @given(seed=seeds, n=st.integers(60, 300))
 @pytest.mark.slow
+@pytest.mark.weekly
 def test_without_outliers_a_robust_fit_is_the_plain_one(shape: str, seed: int, n: int) -> None:
     """To the bit where it counts all points; otherwise few are missing."""
     points = followed(shape, np.random.default_rng(seed), n)
@@ -233,6 +234,7 @@ def test_the_cut_is_a_quantile_of_students_t(freedom: int) -> None:
 @settings(max_examples=8)
 @given(seed=seeds, share=st.floats(0.02, 0.35))
 @pytest.mark.slow
+@pytest.mark.weekly
 def test_a_rest_is_one_place(shape: str, seed: int, share: float) -> None:
     """A recording that starts long before the motion: two thirds of its rows are the same."""
     random = np.random.default_rng(seed)
