@@ -1,10 +1,12 @@
 # Files that are compiled together, because they share headers and templates. Chosen so that two cores finish
 # at the same time and no compiler needs more than 1.2 GB; `.ci/compile_time` measures both.
-set(joined_stages tick) # under the thread sanitizer nothing is optimised, and headers are most of the work
-set(joined_teleop run)
+# Under a sanitizer, where little or nothing is optimised, most of the work is to read headers: all but the model is one.
 function(ebac_bundle target name folder)
-  if(EBAC_SANITIZE STREQUAL "thread" AND joined_${name})
-    set(name ${joined_${name}})
+  if(EBAC_SANITIZE)
+    set(target ebac)
+    if(NOT name STREQUAL "model")
+      set(name rest)
+    endif()
   endif()
   set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
   foreach(source IN LISTS ARGN)

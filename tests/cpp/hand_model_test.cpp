@@ -86,7 +86,7 @@ TEST(HandModel, FinerTicksMoveNoPresetByMuch) {
   for (const HandModel& model : models) {
     for (const double friction : {0.0, 0.5}) {
       const double coarse = place_after(with(model), kTick, 0.5, friction);
-      const double fine = place_after(with(model), kTick / 8, 0.5, friction);
+      const double fine = place_after(with(model), kTick / 4, 0.5, friction);
       EXPECT_NEAR(coarse, fine, 1e-7) << "model " << model.index() << ", friction " << friction;
     }
   }
