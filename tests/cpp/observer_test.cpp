@@ -290,14 +290,16 @@ TEST(Observer, FadesWhereTheForceIsOldOrTheSensorSaysSo) {
 }
 
 /// With an estimate within half a count, what is counted exceeds the true work by no more than half a count of the
-/// present force and of the changes that are too slow to be charged.
+/// present force and of the changes that are too slow to be charged: half a count of the observer, where that of the
+/// encoder is finer.
 TEST(ObservedWork, ExceedsTheTruthByNoMoreThanSlowChanges) {
   constexpr double kCount = 3e-5, kSlow = 0.05;
   std::mt19937 random(7);
   std::normal_distribution<double> normal;
   std::uniform_real_distribution<double> beside(-kCount / 2, kCount / 2);
   for (int run = 0; run < 50; ++run) {
-    ObservedWork work(kCount, 0.03);
+    const double count = run % 2 == 0 ? kCount : kCount / 4;
+    ObservedWork work(count, kCount, 0.03);
     Port port{.dt = 1e-3};
     const double pace = std::pow(10, -2 + normal(random));  // counts in a tick
     double x = 0, force = 0, truth = 0, counted = 0, slow = 0;
@@ -309,7 +311,7 @@ TEST(ObservedWork, ExceedsTheTruthByNoMoreThanSlowChanges) {
       const double dx = pace * kCount * normal(random);
       x += dx;
       truth += force * dx;
-      const double reading = kCount * std::round(x / kCount);
+      const double reading = count * std::round(x / count);
       port.dx = reading - port.x;
       port.x = reading;
       port.est.x = x + beside(random);
@@ -323,16 +325,30 @@ TEST(ObservedWork, ExceedsTheTruthByNoMoreThanSlowChanges) {
 /// A change in one tick is charged half a count, less what noise can cause.
 TEST(ObservedWork, ChargesFastChanges) {
   constexpr double kCount = 3e-5, kSlow = 0.05;
-  ObservedWork work(kCount, 0.03);
+  ObservedWork work(kCount, kCount, 0.03);
   Port port{.dt = 1e-3};
   work.start(port);
   EXPECT_DOUBLE_EQ(work.step(0, 0, port, 0), 0);
   EXPECT_DOUBLE_EQ(work.step(1, 0, port, 0), -kCount / 2 * (1 - kSlow));
   EXPECT_DOUBLE_EQ(work.step(1, 0, port, 0), 0);
   EXPECT_DOUBLE_EQ(work.step(0, 0, port, 0), -kCount / 2 * (1 - kSlow));
-  ObservedWork noisy(kCount, 0.3);  // ten times noisier than usual
+  ObservedWork noisy(kCount, kCount, 0.3);  // ten times noisier than usual
   noisy.start(port);
   EXPECT_DOUBLE_EQ(noisy.step(1, 0, port, 0), -kCount / 2 * (1 - 10 * kSlow));
+  ObservedWork fine(kCount / 10, kCount, 0.03);
+  fine.start(port);
+  EXPECT_DOUBLE_EQ(fine.step(1, 0, port, 0), -kCount / 2 * (1 - kSlow));
+}
+
+/// An estimate beside the reading counts for half a count of the encoder, not for one of the observer.
+TEST(ObservedWork, KeepsTheEstimateWithinACountOfTheEncoder) {
+  constexpr double kCount = 3e-5, kFine = 3e-6;
+  ObservedWork work(kFine, kCount, 0.03);
+  Port port{.dt = 1e-3};
+  work.start(port);
+  work.step(1, 0, port, 0);
+  port.est.x = kCount / 2;
+  EXPECT_DOUBLE_EQ(work.step(1, 0, port, 0), kFine / 2);
 }
 
 /// Mean and moment of a lagged force give its work over any interval in which the velocity changes evenly.
@@ -363,7 +379,7 @@ TEST(LaggedForce, DoesWorkOverAChangingVelocity) {
 /// A force that rests costs nothing, however long and whatever the reading does.
 TEST(ObservedWork, ChargesNothingForAForceThatRests) {
   constexpr double kCount = 3e-5;
-  ObservedWork work(kCount, 0.03);
+  ObservedWork work(kCount, kCount, 0.03);
   Port port{.dt = 1e-3, .f_applied = 10};
   work.start(port);
   work.step(10, 0, port, 0);

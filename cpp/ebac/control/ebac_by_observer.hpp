@@ -18,7 +18,8 @@ class EbacByObserver {
  public:
   EbacByObserver(const EbacParams& params, const Timing& timing) EBAC_RT
       : force_(params, timing),
-        work_(observer_count(params.count, params.mass, timing.dt), params.force_noise),
+        work_(params.count, observer_count(params.count, params.mass, timing.dt),
+              params.force_noise),
         guard_(params.damping, params.mass,
                observer_count(params.count, params.mass, timing.dt) / 2, timing.longest(), kKnown) {
   }

@@ -15,16 +15,21 @@ namespace ebac {
 /// total variation of the force (summation by parts). Charging all of it is proven, and dissolves a
 /// held wall within a minute: its force follows the noise of the sensor. So half a count is charged
 /// for what the force changes in a tick beyond 0.05 N: motion faster than the observer follows.
-/// 0.05 N are for a sensor of 0.03 N of noise, and grow with the noise that is declared.
+/// 0.05 N are for a sensor of 0.03 N of noise, and grow with the noise that is declared. Of a finer
+/// encoder the charge takes the count that the observer reckons with (`observer_count`): what the
+/// force does within a tick is unknown however fine the counts are.
 ///
 /// Declared, not proven, is the rest: that mass, lags and sensor are as given. A motion below 20 Hz
 /// within one count is not seen, and can draw at most a count times the swing of the force a cycle,
 /// again in every cycle; docs/explanation/observer.md has what searches find.
 class ObservedWork {
  public:
-  /// `noise`: standard deviation of the force sensor's [N].
-  ObservedWork(double count, double noise) EBAC_RT : half_(count / 2),
-                                                     slow_(kSlow* noisier(noise)) {}
+  /// `count` is the encoder's and `reckoned` the observer's [m], `noise` the standard deviation of the
+  /// force sensor's [N].
+  ObservedWork(double count, double reckoned, double noise) EBAC_RT : within_count_(count / 2),
+                                                                      half_(reckoned / 2),
+                                                                      slow_(kSlow* noisier(noise)) {
+  }
 
   /// How many times noisier than usual a force sensor is, at least 1; `noise` is its standard deviation [N].
   static double noisier(double noise) EBAC_RT { return std::max(1.0, noise / kUsual); }
@@ -54,13 +59,16 @@ class ObservedWork {
   static constexpr double kSlow = 0.05;   // N, a change in a tick that sensor noise can cause; from
                                           // searches of `ebac worst` at d1K10
 
-  double limited(double within) const EBAC_RT { return std::clamp(within, -half_, half_); }
+  double limited(double within) const EBAC_RT {
+    return std::clamp(within, -within_count_, within_count_);
+  }
 
-  double half_;        // m
-  double slow_;        // N
-  double within_ = 0;  // m, of the observer from the reading
-  double v_ = 0;       // m/s
-  double mean_ = 0;    // N
+  double within_count_;  // m, half of a count of the encoder
+  double half_;          // m, half of one of the observer
+  double slow_;          // N
+  double within_ = 0;    // m, of the observer from the reading
+  double v_ = 0;         // m/s
+  double mean_ = 0;      // N
 };
 
 }  // namespace ebac
