@@ -89,6 +89,19 @@ def test_the_option_takes_the_sensor_away() -> None:
     assert np.allclose([row["rest_m"] for row in answer["rows"]], rests, rtol=0, atol=1e-12)
 
 
+@pytest.mark.parametrize(
+    ("words", "answer"),
+    [
+        ("--device-noise 0.03", "--device-noise: the device has no force sensor that could have noise"),
+        ("--observer-every-law", "--observer-every-law: the observer needs a force sensor, and the device has none"),
+    ],
+)  # fmt: skip
+def test_an_option_of_the_sensor_is_refused_without_one(words: str, answer: str) -> None:
+    result = CliRunner().invoke(app, f"wall --no-device-sensor --seconds 0.1 {words}".split())
+    assert result.exit_code == 2
+    assert answer in " ".join(result.output.split())
+
+
 def test_another_value_than_a_table_names_the_way_to_leave_it_out() -> None:
     with pytest.raises(
         ValueError, match=r"must be a table; a device without a sensor has .*fitted"

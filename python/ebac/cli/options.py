@@ -15,7 +15,7 @@ import typer
 from ebac.cli import completion, doubtful_wall, output, setting
 
 if TYPE_CHECKING:
-    from ebac._core import Hand
+    from ebac._core import Device, Hand
     from ebac.operators import Operators
     from ebac.scenario import Environment, Scenario
 
@@ -301,24 +301,30 @@ def _scenario_of(given: dict[str, Any], seconds: float | None) -> Scenario:
     length = given.get("seconds")
     if length is None and not (file and setting.has_seconds(file)):
         length = seconds
+    device = setting.choose_device(base.device, given)
     return base.replace(
-        device=setting.choose_device(base.device, given),
+        device=device,
         hand=hand_of(base.hand, given),
         environment=setting.choose_engine(wall_of(base.environment, given), given),
         timing=setting.choose_timing(base.timing, given.get("rate"), given.get("delay")),
         **setting.given(
-            jitter=given.get("jitter"), seconds=length, seed=given.get("seed"), observer=_observer_of(given)
+            jitter=given.get("jitter"), seconds=length, seed=given.get("seed"),
+            observer=_observer_of(given, device),
         ),
     )  # fmt: skip
 
 
-def _observer_of(given: dict[str, Any]) -> Any:
+def _observer_of(given: dict[str, Any], device: Device) -> Any:
     from ebac.scenario import EVERY_LAW
 
     if not given.get("observer_every_law"):
         return given.get("observer")
     if given.get("observer") is False:
         raise ValueError("--observer-every-law: needs the observer that --no-observer turns off")
+    if not device.sensor.fitted:
+        raise ValueError(
+            "--observer-every-law: the observer needs a force sensor, and the device has none; leave it out"
+        )
     return EVERY_LAW
 
 

@@ -179,6 +179,10 @@ def choose_device(device: Device, options: Mapping[str, Any]) -> Device:
         if options.get(option) is not None:
             changed = getattr(chosen, part).replace(**{field: options[option]})
             chosen = chosen.replace(**{part: changed})
+    if not chosen.sensor.fitted and options.get("device_noise"):
+        raise ValueError(
+            "--device-noise: the device has no force sensor that could have noise; leave it out"
+        )
     return chosen
 
 
