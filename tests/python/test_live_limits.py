@@ -6,13 +6,16 @@ import subprocess
 import sys
 import urllib.request
 from pathlib import Path
+from typing import Any
 
 import pytest
 from typer.testing import CliRunner
 
+import ebac
 from ebac import datasets, worlds
 from ebac._core import Disc, Free, Wall
 from ebac.cli import app
+from ebac.live import Session
 from ebac.live.device_limits import DeviceLimits, surface_of
 
 
@@ -51,6 +54,12 @@ def test_limits_of_a_file_hold_for_every_kind_of_world() -> None:
         (["--virtual", "--simulated"], "--virtual excludes --simulated"),
         (["--allow-control"], "are for hardware: give its file"),
         (["--virtual", "--max-stiffness", "1e4"], "are for hardware: give its file"),
+        (
+            ["joystick.toml", "--scenario", "mine.toml"],
+            "--scenario mine.toml: excludes a configuration",
+        ),
+        (["--scenario", "mine.toml"], "mine.toml"),
+        (["--scenario", "mine.toml", "--allow-control"], "are for hardware: give its file"),
     ],
 )
 def test_options_that_do_not_belong_together_are_refused(words: list[str], message: str) -> None:
@@ -97,3 +106,21 @@ def test_the_command_opens_a_file_and_gives_no_power_by_itself(
     assert run.returncode == 0, said
     assert "drives without power. Kept: no files" in said
     assert "Traceback" not in said
+
+
+def test_the_command_simulates_a_scenario(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    file = tmp_path / "mine.toml"
+    file.write_text("[environment]\nstiffness = 2500.0\n[hand]\nmass = 0.3\n")
+    served: list[Any] = []
+
+    def serve(given: Any, **_: Any) -> Any:
+        served.append(given)
+        raise OSError("in use")
+
+    monkeypatch.setattr("ebac.live.serving.serve", serve)
+    found = CliRunner().invoke(app, ["live", "--no-browser", "--scenario", str(file)])
+    assert "in use" in found.output
+    assert served == [ebac.Scenario.load(file)]
+    session = Session(served[0], virtual=True, folder=tmp_path)
+    assert session.scenario.hand.mass == 0.3
+    assert session.scenario.environment == Wall(stiffness=2500.0)

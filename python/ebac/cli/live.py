@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from ebac.cli import by_name, doubtful_run, options, output
+from ebac.cli import by_name, doubtful_run, options, output, setting
 from ebac.cli.drive.options import Yes, telling
 from ebac.cli.files import new_file
 
@@ -42,6 +42,12 @@ def live(
         ),
     ] = False,
     law: Annotated[str | None, options.one_law(default="as configured")] = None,
+    scenario: Annotated[
+        Path | None,
+        typer.Option(
+            help="Simulate device, hand, world and delay of a scenario in TOML, as `Save TOML` of the page writes it."
+        ),
+    ] = None,
     allow_control: Annotated[
         bool,
         typer.Option(
@@ -119,6 +125,8 @@ def live(
 
     * `ebac live --virtual`: on a virtual clock, where no tick is late.
 
+    * `ebac live --scenario wall.toml`: your device, hand and world, simulated.
+
     * `ebac live joystick.toml --allow-control`: your device, with the dead-man key.
 
     * `ebac live --page live.html`: the page that needs no server.
@@ -128,6 +136,10 @@ def live(
         return
     if force:
         output.fail("--force belongs to --page FILE")
+    if scenario is not None and configuration is not None:
+        output.fail(
+            f"--scenario {scenario}: excludes a configuration; give {configuration} or the scenario"
+        )
     real = configuration is not None and not (simulated or virtual)
     if virtual and simulated:
         output.fail(
@@ -143,11 +155,12 @@ def live(
         "max_damping": max_damping, "host": host, "port": port, "folder": out,
     }  # fmt: skip
     with telling():
-        _serve(configuration, real, law, settings, no_browser, yes, as_json)
+        _serve(configuration, scenario, real, law, settings, no_browser, yes, as_json)
 
 
 def _serve(
     file: Path | None,
+    scenario: Path | None,
     real: bool,
     law: str | None,
     settings: dict[str, Any],
@@ -166,6 +179,7 @@ def _serve(
         known = None if file is None else Configuration.load(file)
         if known is not None:
             doubtful_run.tell(str(file), known)
+        given = known if scenario is None else setting.base_scenario(scenario)
         name = None if law is None else by_name.one_law(law)
     with ExitStack() as stack:
         interrupts = stack.enter_context(Interrupts())
@@ -180,7 +194,7 @@ def _serve(
             if settings["allow_control"]:
                 confirm(device, yes, stderr=as_json)
         try:
-            server = stack.enter_context(serve(known, device=device, law=name, **settings))
+            server = stack.enter_context(serve(given, device=device, law=name, **settings))
         except ImportError as error:
             output.fail(str(error))
         except OSError as error:
