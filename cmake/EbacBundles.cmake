@@ -1,8 +1,9 @@
 # Files that are compiled together, because they share headers and templates. Chosen so that two cores finish
-# at the same time and no compiler needs more than 1.2 GB; `.ci/compile_time` measures both.
-# Under a sanitizer, where little or nothing is optimised, most of the work is to read headers: all but the model is one.
+# at the same time and no compiler needs more than 1.2 GB, but under sanitizers; `.ci/compile_time` measures both.
+# Under a sanitizer, where little or nothing is optimised, most of the work is to read headers: all files of the library
+# but those of the model are one bundle.
 function(ebac_bundle target name folder)
-  if(EBAC_SANITIZE)
+  if(EBAC_SANITIZE AND target MATCHES "^ebac")
     set(target ebac)
     if(NOT name STREQUAL "model")
       set(name rest)

@@ -83,7 +83,7 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     sets: dict[str, list[pytest.Item]] = {}
     for item in items:
         slow = item.get_closest_marker("slow")
-        if slow and not slow.kwargs.get("every"):
+        if slow and not slow.kwargs.get("every") and not item.get_closest_marker("weekly"):
             sets.setdefault(item.nodeid.partition("[")[0], []).append(item)
     for same in sets.values():
         for item in same[1:]:

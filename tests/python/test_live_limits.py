@@ -58,7 +58,8 @@ def test_limits_of_a_file_hold_for_every_kind_of_world() -> None:
             ["joystick.toml", "--scenario", "mine.toml"],
             "--scenario mine.toml: excludes a configuration",
         ),
-        (["--scenario", "mine.toml"], "mine.toml"),
+        (["--scenario", "mine.toml"], "mine.toml: there is no such file"),
+        (["--scenario", "mine.toml", "--page", "live.html"], "--page excludes --scenario"),
         (["--scenario", "mine.toml", "--allow-control"], "are for hardware: give its file"),
     ],
 )
@@ -110,7 +111,7 @@ def test_the_command_opens_a_file_and_gives_no_power_by_itself(
 
 def test_the_command_simulates_a_scenario(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     file = tmp_path / "mine.toml"
-    file.write_text("[environment]\nstiffness = 2500.0\n[hand]\nmass = 0.3\n")
+    file.write_text("[environment]\nstiffness = 2500.0\n[hand]\nmass = 0.3\n[timing]\ndelay = 2\n")
     served: list[Any] = []
 
     def serve(given: Any, **_: Any) -> Any:
@@ -121,6 +122,9 @@ def test_the_command_simulates_a_scenario(tmp_path: Path, monkeypatch: pytest.Mo
     found = CliRunner().invoke(app, ["live", "--no-browser", "--scenario", str(file)])
     assert "in use" in found.output
     assert served == [ebac.Scenario.load(file)]
-    session = Session(served[0], virtual=True, folder=tmp_path)
-    assert session.scenario.hand.mass == 0.3
-    assert session.scenario.environment == Wall(stiffness=2500.0)
+    with Session(served[0], virtual=True, folder=tmp_path) as session:
+        found_scenario = session.scenario
+    assert found_scenario.hand.mass == 0.3
+    assert found_scenario.environment == Wall(stiffness=2500.0)
+    assert found_scenario.device.mass == pytest.approx(served[0].device.mass)
+    assert found_scenario.timing.delay == 2

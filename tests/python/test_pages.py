@@ -213,6 +213,9 @@ def test_a_page_can_be_followed(page: Path, tmp_path: Path, server: PageServer) 
 IN_CI = ("ebac wall", "ebac run", "ebac study", "ebac worst")
 
 
+assert set(IN_CI) <= set(GROUPS)
+
+
 @pytest.mark.real_time
 @pytest.mark.parametrize(
     "group", [g if g in IN_CI else pytest.param(g, marks=pytest.mark.weekly) for g in GROUPS]

@@ -132,6 +132,10 @@ def live(
     * `ebac live --page live.html`: the page that needs no server.
     """
     if page is not None:
+        if scenario is not None:
+            output.fail(
+                "--page excludes --scenario: the page that needs no server has its own choices"
+            )
         write_page(page, force=force, as_json=as_json)
         return
     if force:
