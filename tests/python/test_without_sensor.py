@@ -93,6 +93,7 @@ def test_the_option_takes_the_sensor_away() -> None:
     ("words", "answer"),
     [
         ("--device-noise 0.03", "--device-noise: the device has no force sensor that could have noise"),
+        ("--observer", "--observer: the observer needs a force sensor, and the device has none"),
         ("--observer-every-law", "--observer-every-law: the observer needs a force sensor, and the device has none"),
     ],
 )  # fmt: skip

@@ -317,15 +317,15 @@ def _scenario_of(given: dict[str, Any], seconds: float | None) -> Scenario:
 def _observer_of(given: dict[str, Any], device: Device) -> Any:
     from ebac.scenario import EVERY_LAW
 
-    if not given.get("observer_every_law"):
-        return given.get("observer")
-    if given.get("observer") is False:
+    every, observer = given.get("observer_every_law"), given.get("observer")
+    if every and observer is False:
         raise ValueError("--observer-every-law: needs the observer that --no-observer turns off")
-    if not device.sensor.fitted:
+    if (every or observer) and not device.sensor.fitted:
+        option = "--observer-every-law" if every else "--observer"
         raise ValueError(
-            "--observer-every-law: the observer needs a force sensor, and the device has none; leave it out"
+            f"{option}: the observer needs a force sensor, and the device has none; leave it out"
         )
-    return EVERY_LAW
+    return EVERY_LAW if every else observer
 
 
 def wall_of(environment: Environment, group: Any) -> Environment:
