@@ -111,7 +111,9 @@ def test_the_command_opens_a_file_and_gives_no_power_by_itself(
 
 def test_the_command_simulates_a_scenario(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     file = tmp_path / "mine.toml"
-    file.write_text("[environment]\nstiffness = 2500.0\n[hand]\nmass = 0.3\n[timing]\ndelay = 2\n")
+    file.write_text(
+        "seed = 4\n[environment]\nstiffness = 2500.0\n[hand]\nmass = 0.3\n[timing]\ndelay = 2\n"
+    )
     served: list[Any] = []
 
     def serve(given: Any, **_: Any) -> Any:
@@ -121,6 +123,7 @@ def test_the_command_simulates_a_scenario(tmp_path: Path, monkeypatch: pytest.Mo
     monkeypatch.setattr("ebac.live.serving.serve", serve)
     found = CliRunner().invoke(app, ["live", "--no-browser", "--scenario", str(file)])
     assert "in use" in found.output
+    assert "mine.toml: the page does not take seed" in " ".join(found.output.split())
     assert served == [ebac.Scenario.load(file)]
     with Session(served[0], virtual=True, folder=tmp_path) as session:
         found_scenario = session.scenario

@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from ebac.hardware import Configuration
     from ebac.hardware.interrupts import Interrupts
     from ebac.live.server import Server
+    from ebac.scenario import Scenario
 
 
 def live(
@@ -183,7 +184,7 @@ def _serve(
         known = None if file is None else Configuration.load(file)
         if known is not None:
             doubtful_run.tell(str(file), known)
-        given = known if scenario is None else setting.base_scenario(scenario)
+        given = known if scenario is None else _scenario_of(scenario)
         name = None if law is None else by_name.one_law(law)
     with ExitStack() as stack:
         interrupts = stack.enter_context(Interrupts())
@@ -207,6 +208,18 @@ def _serve(
         watch(server, interrupts, no_browser=no_browser, as_json=as_json)
         kept = list(server.session.kept)
     ended("Ended; drives without power.", kept)
+
+
+def _scenario_of(file: Path) -> Scenario:
+    """Return the scenario of a file, with a note on what of it the page does not take."""
+    found = setting.base_scenario(file)
+    usual = type(found)()
+    left = [name for name in ("seed", "jitter") if getattr(found, name) != getattr(usual, name)]
+    if not isinstance(found.observer, bool):
+        left.append("observer, which is designed anew")
+    if left:
+        output.note(f"{file}: the page does not take {', '.join(left)}")
+    return found
 
 
 def watch(server: Server, interrupts: Interrupts, *, no_browser: bool, as_json: bool) -> None:
