@@ -12,12 +12,10 @@ from typing import TYPE_CHECKING, Annotated, Any, TypeAlias
 
 import typer
 
-from ebac.cli import completion, doubtful_wall, output, setting
+from ebac.cli import completion, setting
 
 if TYPE_CHECKING:
-    from ebac._core import Device, Hand
     from ebac.operators import Operators
-    from ebac.scenario import Environment, Scenario
 
 WALL, HAND, DEVICE, RUN, POPULATION = "Wall", "Hand", "Device", "Run", "Population"
 
@@ -283,75 +281,3 @@ class ScenarioOptions(RunOptions, DeviceOptions, HandOptions, WallOptions):
     ] = None
     delay: Delay = None
     seed: Seed = None
-
-
-def scenario_of(*groups: Any, seconds: float | None = None) -> Scenario:
-    """Return the scenario that groups of options describe; `seconds` is its length where nothing gives one [s].
-
-    A mesh that is met for the first time shows a bar.
-    """
-    given = {name: value for group in groups for name, value in vars(group).items()}
-    with output.counting_meshes():
-        return _scenario_of(given, seconds)
-
-
-def _scenario_of(given: dict[str, Any], seconds: float | None) -> Scenario:
-    file = given.get("scenario")
-    base = setting.base_scenario(file)
-    length = given.get("seconds")
-    if length is None and not (file and setting.has_seconds(file)):
-        length = seconds
-    device = setting.choose_device(base.device, given)
-    return base.replace(
-        device=device,
-        hand=hand_of(base.hand, given),
-        environment=setting.choose_engine(wall_of(base.environment, given), given),
-        timing=setting.choose_timing(base.timing, given.get("rate"), given.get("delay")),
-        **setting.given(
-            jitter=given.get("jitter"), seconds=length, seed=given.get("seed"),
-            observer=_observer_of(given, device),
-        ),
-    )  # fmt: skip
-
-
-def _observer_of(given: dict[str, Any], device: Device) -> Any:
-    from ebac.scenario import EVERY_LAW
-
-    every, observer = given.get("observer_every_law"), given.get("observer")
-    if every and observer is False:
-        raise ValueError("--observer-every-law: needs the observer that --no-observer turns off")
-    if (every or observer) and not device.sensor.fitted:
-        option = "--observer-every-law" if every else "--observer"
-        raise ValueError(
-            f"{option}: the observer needs a force sensor, and the device has none; leave it out"
-        )
-    return EVERY_LAW if every else observer
-
-
-def wall_of(environment: Environment, group: Any) -> Environment:
-    """Return the wall with what its options change, or the world of --world."""
-    given = group if isinstance(group, dict) else vars(group)
-    doubtful_wall.tell_option(given.get("wall_stiffness"))
-    if given.get("world") is not None:
-        return setting.choose_world(
-            given["world"],
-            stiffness=given.get("wall_stiffness"),
-            damping=given.get("wall_damping"),
-            position=given.get("wall_position"),
-            friction=given.get("world_friction"),
-        )
-    if given.get("world_friction") is not None:
-        raise ValueError("--world-friction: a flat wall has none; add --world plane")
-    return setting.choose_wall(
-        environment, stiffness=given.get("wall_stiffness"),
-        damping=given.get("wall_damping"), position=given.get("wall_position"),
-    )  # fmt: skip
-
-
-def hand_of(hand: Hand, group: Any) -> Hand:
-    """Return the hand with what its options change."""
-    given = group if isinstance(group, dict) else vars(group)
-    return setting.choose_hand(
-        hand, given.get("hand"), given.get("hand_target"), mass=given.get("hand_mass"),
-        damping=given.get("hand_damping"), stiffness=given.get("hand_stiffness"),
-    )  # fmt: skip

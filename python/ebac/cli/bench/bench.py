@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from ebac.cli import interrupts, options, output
+from ebac.cli import from_options, interrupts, options, output
 from ebac.cli.bench import can, logs, peers, worlds
 
 if TYPE_CHECKING:
@@ -121,7 +121,7 @@ def bench(
 
     rows = []
     with output.refusing():
-        scenario = options.scenario_of(setup)
+        scenario = from_options.scenario(setup)
     with output.refusing(), output.progress(len(LAWS) + 1, quiet=as_json) as step:
         for name in LAWS:
             step(f"timing {name}")

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ebac.cli import by_name, doubtful_run, options, setting
+from ebac.cli import by_name, doubtful_run, from_options, options, setting
 
 if TYPE_CHECKING:
     from ebac.hardware import Configuration
@@ -27,8 +27,8 @@ def chosen(
     known = Configuration.load(file)
     doubtful_run.tell(file, known)
     changes: dict[str, Any] = {
-        "environment": options.wall_of(known.environment, wall),
-        "hand": options.hand_of(known.hand, person),
+        "environment": from_options.wall(known.environment, wall),
+        "hand": from_options.hand(known.hand, person),
         "timing": setting.choose_timing(known.timing, rate, None),
         **setting.given(seconds=seconds),
         **_observer(known, observer),

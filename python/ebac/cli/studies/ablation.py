@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from ebac.cli import by_name, interrupts, options, output, setting
+from ebac.cli import by_name, from_options, interrupts, options, output, setting
 from ebac.cli.files import ResultOptions
 from ebac.cli.studies import replaced, study_results
 
@@ -72,7 +72,7 @@ def ablation(
             "law": by_name.one_law(law),
             "changes": [setting.parse_change(one) for one in change or []],
             "beside": by_name.law_names(beside or ("tca", "eba"), "--beside"),
-            "base": options.scenario_of(device, length),
+            "base": from_options.scenario(device, length),
             "seed": hands.seed,
             "threads": threads,
             "resume": resume,

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
-from ebac.cli import by_name, engine_options, options, output
+from ebac.cli import by_name, engine_options, from_options, options, output
 from ebac.cli.files import ResultOptions
 
 if TYPE_CHECKING:
@@ -73,7 +73,7 @@ def _scenario(setup: options.ScenarioOptions) -> Scenario:
 
     if setup.scenario is None and setup.wall_position is None:
         setup = replace(setup, wall_position=0.01)
-    return options.scenario_of(setup, seconds=4.0)
+    return from_options.scenario(setup, seconds=4.0)
 
 
 def _document(found: Engines) -> str:

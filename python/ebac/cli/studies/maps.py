@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from ebac._util.arguments import unknown
-from ebac.cli import by_name, interrupts, options, output
+from ebac.cli import by_name, from_options, interrupts, options, output
 from ebac.cli.files import ResultOptions
 
 if TYPE_CHECKING:
@@ -73,7 +73,7 @@ def map_(
     with output.refusing():
         x, y = _quantities(kind)
         names = by_name.law_names(law or ["ebac"])
-        base = options.scenario_of(setup, seconds=2.0)
+        base = from_options.scenario(setup, seconds=2.0)
         xs = _values("x", AXES[x], base, side, x_low, x_high)
         ys = _values("y", AXES[y], base, side, y_low, y_high)
     folder = to.folder("map", as_json=as_json, resume=BUNDLES.format(names[0]) * resume)

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from ebac.cli import by_name, doubtful_wall, interrupts, options, output
+from ebac.cli import by_name, doubtful_wall, from_options, interrupts, options, output
 from ebac.cli.files import ResultOptions
 from ebac.cli.studies import changed_laws, study_results
 
@@ -75,7 +75,7 @@ def stiffest(
         _check(share, wall_stiffness or ())
         given: dict[str, Any] = {
             "population": hands.operators(),
-            "base": options.scenario_of(device, run),
+            "base": from_options.scenario(device, run),
             "share": share,
             "seed": hands.seed,
             "threads": threads,

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from ebac.cli import by_name, interrupts, options, output
+from ebac.cli import by_name, from_options, interrupts, options, output
 from ebac.cli.files import PANEL, ResultOptions
 from ebac.cli.studies import replaced, study_results
 
@@ -80,7 +80,7 @@ def study(
         names = by_name.law_names(law or LAWS)
         people = hands.operators(approach)
         given: dict[str, Any] = {
-            "base": options.scenario_of(device, length),
+            "base": from_options.scenario(device, length),
             "conditions": by_name.condition_names(condition or [options.usual_condition(length)]),
             "seed": hands.seed,
             "threads": threads,

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from ebac.cli import by_name, completion, interrupts, options, output
+from ebac.cli import by_name, completion, from_options, interrupts, options, output
 from ebac.cli.files import PANEL, Force, free_folder
 from ebac.cli.studies import replaced
 
@@ -96,7 +96,7 @@ def tune(
         if law.lower() == "all":
             names = [name for name in names if name in RANGES]
         wanted = by_name.condition_names(condition or TUNING_CONDITIONS)
-        base = options.scenario_of(device, length)
+        base = from_options.scenario(device, length)
         replaced.tell(base, wanted)
         training = Operators.sample(hands, HANDS_SEED)
         for name in names:

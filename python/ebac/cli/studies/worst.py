@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from ebac.cli import by_name, interrupts, options, output, setting
+from ebac.cli import by_name, from_options, interrupts, options, output, setting
 from ebac.cli.files import ResultOptions
 from ebac.cli.studies import replaced
 
@@ -89,7 +89,7 @@ def worst(
             )
         name = by_name.one_law(law)
         chosen = Variant(name, setting.parse_change(_one(change))) if change else name
-        base = options.scenario_of(device, length)
+        base = from_options.scenario(device, length)
         wanted = by_name.one_condition(condition or options.usual_condition(length))
         replaced.tell(base, [wanted])
         families = output.words(family)

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from ebac.cli import by_name, interrupts, options, output, setting
+from ebac.cli import by_name, from_options, interrupts, options, output, setting
 from ebac.cli.files import ResultOptions
 from ebac.cli.studies import changed_laws, zwidth_vibration
 
@@ -109,7 +109,7 @@ def zwidth(
 
     with output.refusing():
         laws = changed_laws.beside(by_name.law_names(law or ["all"]), change or [])
-        base = options.scenario_of(hand, device, length, seconds=3.0)
+        base = from_options.scenario(hand, device, length, seconds=3.0)
         base = base.replace(**setting.given(seed=seed))
         _check(most_damping, least_stiffness, most_stiffness, epsilon)
         folder = to.folder("zwidth", as_json=as_json)

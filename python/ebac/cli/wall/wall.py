@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from ebac.cli import by_name, engine_options, options, output
+from ebac.cli import by_name, engine_options, from_options, options, output
 from ebac.cli.files import PANEL, ResultOptions
 from ebac.cli.wall import results as wall_results
 
@@ -75,7 +75,7 @@ def wall(
     with output.refusing():
         names = by_name.law_names(law or DEFAULT_LAWS)
         logs = wall_results.log_names(log, names, force=to.force)
-        chosen = options.scenario_of(setup, engine)
+        chosen = from_options.scenario(setup, engine)
         _check_length(chosen)
         warning = ""
         if through is not None:
