@@ -436,6 +436,11 @@ def test_a_fault_is_told_and_its_log_kept(monkeypatch: pytest.MonkeyPatch, tmp_p
             "--change: there is no such option here; `ebac ablation`, `ebac stiffest`, `ebac worst` and `ebac zwidth` "
             "have it",
         ),
+        ("wall --noise 1", "--noise: there is no such option, did you mean --device-noise; see"),
+        (
+            "wall --no-sensor",
+            "--no-sensor: there is no such option, did you mean --no-device-sensor or --device-sensor",
+        ),
         ("teleop simulate", "teleop simulate: there is no such command, did you mean 'run'; see"),
         ("simulate", "simulate: there is no such command, did you mean 'wall'; see"),
         ("study --delay 2", "--delay: there is no such option here, --condition sets it"),
@@ -654,6 +659,8 @@ def test_a_coarse_force_sensor_is_doubted(quantum: float, count: int) -> None:
     assert len(said) == count
     assert all("steps of the force from 0.1 N" in text for text in said)
     assert doubtful_device.doubts(ebac.Device(sensor=sensor.replace(fitted=False))) == []
+    (said,) = doubtful_device.doubts(ebac.Device(sensor=sensor.replace(fitted=False, noise=0.03)))
+    assert "fitted = false, but noise = 0.03 N" in said
 
 
 @pytest.mark.parametrize(

@@ -60,6 +60,10 @@ def test_limits_of_a_file_hold_for_every_kind_of_world() -> None:
         ),
         (["--scenario", "mine.toml"], "mine.toml: there is no such file"),
         (["--scenario", "mine.toml", "--page", "live.html"], "--page excludes --scenario"),
+        (
+            ["--law", "Sfa_tuned"],
+            "--law Sfa_tuned: the page has no laws with tuned parameters; give sfa",
+        ),
         (["--scenario", "mine.toml", "--allow-control"], "are for hardware: give its file"),
     ],
 )
@@ -67,6 +71,42 @@ def test_options_that_do_not_belong_together_are_refused(words: list[str], messa
     found = CliRunner().invoke(app, ["live", "--no-browser", *words])
     assert found.exit_code == 2
     assert message in " ".join(found.output.split())
+
+
+@pytest.mark.parametrize(
+    ("words", "remedy"),
+    [(["run"], "add --simulated or --virtual"), (["live", "--no-browser"], "give --scenario")],
+)
+def test_a_file_with_no_table_of_drives_opens_no_bus(
+    tmp_path: Path, words: list[str], remedy: str
+) -> None:
+    file = tmp_path / "device.toml"
+    file.write_text("[device.mechanics]\ngravity = 0.0\n")
+    found = CliRunner().invoke(app, [*words, str(file)])
+    told = " ".join(found.output.split())
+    assert found.exit_code == 2
+    assert "no table of it says which bus and drives these are, such as [bus]; " + remedy in told
+
+
+def test_the_command_turns_the_observer_on_and_off(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    served: list[tuple[Any, Any]] = []
+
+    def serve(given: Any, *, observer: bool | None = None, **_: Any) -> Any:
+        served.append((given, observer))
+        raise OSError("in use")
+
+    monkeypatch.setattr("ebac.live.serving.serve", serve)
+    file = own_bus(tmp_path)
+    text = file.read_text()
+    sensor = datasets.joystick_text("joystick").partition("[sensor]")[2].partition("[recording]")[0]
+    file.write_text(f"{text}\n[sensor]{sensor}")
+    for words in (["--no-observer"], [str(file), "--virtual", "--observer"]):
+        CliRunner().invoke(app, ["live", "--no-browser", *words])
+    assert served[0] == (None, False)
+    assert served[1][0].observer is True
+    assert served[1][1] is None
 
 
 def own_bus(folder: Path) -> Path:

@@ -1,6 +1,7 @@
 """A device without a force sensor: no law feeds back a force, and none acts on an observer."""
 
 import json
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -12,6 +13,7 @@ from ebac.cli import app
 from ebac.datasets import joystick_text
 from ebac.hardware import Configuration
 from ebac.laws import FORCE_GAINS, LAWS, design
+from ebac.live import Session
 
 BARE = ebac.Device(sensor=None)
 SHORT = ebac.Scenario(seconds=0.4)
@@ -151,3 +153,19 @@ def test_a_picture_shows_no_force_that_nothing_measured() -> None:
         axes = ebac.simulate(SHORT.replace(device=device), "direct").plot().axes
         labels = [line.get_label() for ax in axes for line in ax.lines]
         assert any("measured" in str(label) for label in labels) == shown
+
+
+def test_a_session_refuses_an_observer_without_a_force_and_keeps_what_it_had(
+    tmp_path: Path,
+) -> None:
+    bare = ebac.Scenario(device=BARE)
+    with pytest.raises(ValueError, match="no force sensor is configured"):
+        Session(bare, observer=True, virtual=True, folder=tmp_path)
+    with Session(bare, virtual=True, paced=False, folder=tmp_path) as session:
+        assert session.choices.observer is False
+        session.start()
+        session.advance(0.1)
+        with pytest.raises(ValueError, match="no force sensor is configured"):
+            session.change(observer=True)
+        assert session.choices.observer is False
+        assert session.running

@@ -23,6 +23,16 @@ def one_law(name: str, option: str = "--law") -> str:
     return names[0]
 
 
+def designed_law(name: str, where: str) -> str:
+    """Return a law by its name, `where` none has tuned parameters; each is designed for wall and device there."""
+    from ebac.tuned_laws import tuned_laws
+
+    law, tuned, _ = name.lower().replace("_", "-").partition("-tuned")
+    if tuned and any(one.startswith(f"{law}-tuned") for one in tuned_laws()):
+        raise ValueError(f"--law {name}: {where} has no laws with tuned parameters; give {law}")
+    return one_law(name)
+
+
 def law_names(given: Sequence[str], option: str = "--law") -> list[str]:
     """Return the laws of names in any case, separated by commas, each once, in the order given; `all` is every law."""
     from ebac.laws import LAWS

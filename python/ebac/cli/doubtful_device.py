@@ -60,6 +60,11 @@ def doubts(device: Device) -> list[str]:
             f"device.sensor.quantum = {device.sensor.quantum:g} N: with steps of the force from {COARSE:g} N on `ebac` "
             "with the observer is not quiet and can lose walls; --no-observer runs it on the encoder alone"
         )
+    if not device.sensor.fitted and device.sensor.noise > 0:
+        found.append(
+            f"device.sensor: fitted = false, but noise = {device.sensor.noise:g} N: the device has no force "
+            "sensor, and the noise is not used; leave out fitted where it has one"
+        )
     found += _far_stops(device)
     drum, sector = device.capstan.drum_radius, device.capstan.sector_radius
     if drum > sector:

@@ -43,6 +43,7 @@ def live(
         ),
     ] = False,
     law: Annotated[str | None, options.one_law(default="as configured")] = None,
+    observer: Annotated[bool | None, options.observer(default="on; with a file as in it")] = None,
     scenario: Annotated[
         Path | None,
         typer.Option(
@@ -156,6 +157,7 @@ def live(
             "and --virtual; a page controls what is simulated anyway"
         )
     settings = {
+        "observer": observer,
         "allow_control": allow_control, "virtual": virtual, "max_stiffness": max_stiffness,
         "max_damping": max_damping, "host": host, "port": port, "folder": out,
     }  # fmt: skip
@@ -175,6 +177,7 @@ def _serve(
 ) -> None:
     from contextlib import ExitStack
 
+    from ebac.cli.run.chosen import observer_change
     from ebac.hardware import Configuration, OpenDevice
     from ebac.hardware.interrupts import Interrupts
     from ebac.live.serving import serve
@@ -184,15 +187,17 @@ def _serve(
         known = None if file is None else Configuration.load(file)
         if known is not None:
             doubtful_run.tell(str(file), known)
+            known = known.replace(**observer_change(known, settings.pop("observer")))
         given = known if scenario is None else _scenario_of(scenario)
-        name = None if law is None else by_name.one_law(law)
+        name = None if law is None else by_name.designed_law(law, "the page")
     with ExitStack() as stack:
         interrupts = stack.enter_context(Interrupts())
         interrupts.moving()
         device = None
         if real and known is not None:
-            from ebac.cli.run.confirm import can_ask, confirm
+            from ebac.cli.run.confirm import can_ask, confirm, names_its_drives
 
+            names_its_drives(known, f"give --scenario {file} for a simulation")
             if settings["allow_control"]:
                 can_ask(known, yes)
             device = stack.enter_context(OpenDevice.open(known))

@@ -124,7 +124,8 @@ def values_of(param: Any, words: Sequence[str]) -> Iterator[str]:
 
 
 def _unknown_option(wrong: str, command: Any) -> str:
-    known = [name for p in command.params if not getattr(p, "hidden", False) for name in p.opts]
+    shown = [p for p in command.params if not getattr(p, "hidden", False)]
+    known = [name for p in shown for name in (*p.opts, *p.secondary_opts)]
     known = [name for name in known if name.startswith("--")]
     for pattern, others in VARIED.items():
         other = next((name for name in others if name in known), None)
@@ -138,6 +139,7 @@ def _unknown_option(wrong: str, command: Any) -> str:
     word = wrong.lstrip("-")
     close = (
         [name[2:] for name in MEANT.get(wrong, ()) if name in known]
+        or [name for name in bare if name.partition("-")[2] == word]
         or get_close_matches(word, bare, 2)
         or [tails[tail] for tail in get_close_matches(word, tails, 2)]
     )

@@ -139,11 +139,15 @@ def _of_scenario(scenario: Scenario) -> Configuration:
         hand=scenario.hand,
         environment=scenario.environment,
         timing=scenario.timing,
-        observer=bool(scenario.observer),
+        observer=bool(scenario.observer) and scenario.device.sensor.fitted,
     )
 
 
 def _with_device(known: Configuration, device: Any) -> Configuration:
     nodes = known.drives.nodes[: device.axes]
-    limits = Limits.of(device).replace(speed=known.limits.speed)
-    return known.replace(device=device, limits=limits, drives=replace(known.drives, nodes=nodes))
+    return known.replace(
+        device=device,
+        limits=Limits.of(device).replace(speed=known.limits.speed),
+        drives=replace(known.drives, nodes=nodes),
+        sensor=known.sensor if device.sensor.fitted else None,
+    )

@@ -18,6 +18,7 @@ def serve(
     *,
     device: OpenDevice | None = None,
     law: str | None = None,
+    observer: bool | None = None,
     host: str = "127.0.0.1",
     port: int = 0,
     allow_control: bool = False,
@@ -42,6 +43,8 @@ def serve(
         Hardware; it stays open.
     law : str, optional
         The law to begin with; default: that of the configuration, or "ebac".
+    observer : bool, optional
+        Whether a simulation begins with the state observer; default: as given, else with it.
     host : str
         Where to listen; another than 127.0.0.1 lets other machines in that know the token, unencrypted.
     port : int
@@ -69,7 +72,7 @@ def serve(
     OSError
         When host and port cannot be had.
     ValueError
-        For an unknown law, a limit that is none, a device on a virtual clock.
+        For an unknown law, a limit that is none, a device on a virtual clock, an observer without a force sensor.
 
     Examples
     --------
@@ -79,7 +82,7 @@ def serve(
     ...     input("Enter ends it")
     """
     with Session(
-        given, device=device, dead_man=dead_man, law=law, virtual=virtual,
+        given, device=device, dead_man=dead_man, law=law, observer=observer, virtual=virtual,
         max_stiffness=max_stiffness, max_damping=max_damping, folder=folder,
     ) as session:  # fmt: skip
         control = allow_control or not session.real

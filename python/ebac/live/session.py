@@ -39,6 +39,9 @@ class Session(SessionChanges):
         Whether the loop has power only while `hold` is called again within 0.3 s; on hardware always.
     law : str, optional
         The law to begin with.
+    observer : bool, optional
+        Whether the loop begins with the state observer; default: as given, else with it. A device that was given
+        decides by its configuration.
     virtual : bool, optional
         Whether the clock is virtual, as of `ebac run --virtual`: no tick is late, and what runs depends on orders and
         their ticks alone.
@@ -68,7 +71,7 @@ class Session(SessionChanges):
     Raises
     ------
     ValueError
-        For an unknown law, a limit that is none, a device on a virtual clock.
+        For an unknown law, a limit that is none, a device on a virtual clock, an observer without a force sensor.
     """
 
     def __init__(
@@ -78,6 +81,7 @@ class Session(SessionChanges):
         device: OpenDevice | None = None,
         dead_man: bool = False,
         law: str | None = None,
+        observer: bool | None = None,
         virtual: bool = False,
         paced: bool = True,
         max_stiffness: float | None = None,
@@ -87,6 +91,10 @@ class Session(SessionChanges):
         self._given = device.configuration if device is not None else given
         if device is not None and virtual:
             raise ValueError("virtual=True: a device that is open has a clock of its own")
+        if device is not None and observer is not None:
+            raise ValueError(
+                "observer: a device that is open keeps that of its configuration; change it there"
+            )
         self._device: OpenDevice | VirtualDevice | None = device
         self._lent, self.virtual, self._paced = device is not None, virtual, paced
         self._time = VirtualTime()
@@ -102,12 +110,15 @@ class Session(SessionChanges):
             for name in ("stiffness", "damping")
             if hasattr(world, name) or self._lent
         }
+        if observer is None:
+            observer = (given is None and device is None) or bool(self.base.observer)
         first = Choices(
-            observer=(given is None and device is None) or bool(self.base.observer),
+            observer=observer,
             delay=self.base.timing.delay,
             **own,
         )
         self.choices = first.with_changes({"law": law or self.base.law})
+        self._chosen()
         self._clock = (lambda: self._time.now) if virtual else time.monotonic
         self.hand = IntendedHand(self.base, clock=self._clock)
         self.run: Run | None = None

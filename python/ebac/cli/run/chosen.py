@@ -31,7 +31,7 @@ def chosen(
         "hand": from_options.hand(known.hand, person),
         "timing": setting.choose_timing(known.timing, rate, None),
         **setting.given(seconds=seconds),
-        **_observer(known, observer),
+        **observer_change(known, observer),
     }
     name = None if law is None else by_name.one_law(law)
     if name is not None and name != known.law:
@@ -43,7 +43,7 @@ def chosen(
     return made
 
 
-def _observer(known: Configuration, wanted: bool | None) -> dict[str, Any]:
+def observer_change(known: Configuration, wanted: bool | None) -> dict[str, Any]:
     """Return the change that turns the observer on or off; one that is configured stays as it is."""
     if wanted is None or wanted == bool(known.observer):
         return {}

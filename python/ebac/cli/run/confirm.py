@@ -15,6 +15,17 @@ if TYPE_CHECKING:
 _ASKS = "A run on hardware asks whether the zero of the encoders is right."
 
 
+def names_its_drives(known: Configuration, instead: str) -> None:
+    """End the command where a file has nothing that only hardware has; `instead` is a remedy."""
+    from ebac._util.toml import parsed
+
+    if parsed(known.text).keys() <= {"device", "timing", "environment", "observer"}:
+        output.fail(
+            f"{known.name}: no table of it says which bus and drives these are, such as [bus]; {instead}, or write "
+            "[bus] into it for hardware"
+        )
+
+
 def can_ask(known: Configuration, yes: bool) -> None:
     """End the command where nobody could be asked, before a drive is asked for anything."""
     if yes or known.interface != "socketcan" or known.zero.absolute:

@@ -12,7 +12,7 @@ from ebac.cli.drive.options import Yes, telling
 from ebac.cli.files import PANEL, FigureOptions
 from ebac.cli.run import carry_out, engine
 from ebac.cli.run.chosen import chosen
-from ebac.cli.run.confirm import can_ask
+from ebac.cli.run.confirm import can_ask, names_its_drives
 from ebac.cli.run.names import free_stem, leave
 
 DEFAULT_OUT = Path("ebac-run")
@@ -170,6 +170,7 @@ def run(
         if not virtual:
             schedule.check(known, simulated=simulated)
     if not (virtual or simulated):
+        names_its_drives(known, "add --simulated or --virtual for a simulation")
         can_ask(known, yes)
     if beyond_rating:
         for _, text in rating.beyond_rating(known):
