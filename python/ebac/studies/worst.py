@@ -17,6 +17,7 @@ from ebac.studies.conditions import Condition, conditions
 from ebac.studies.families import PULL, families, find_family
 from ebac.studies.hand_search import HandSearch, WorstHand, every_row
 from ebac.studies.scenario_changes import truth
+from ebac.studies.slower_hands import no_quicker
 from ebac.trace import Trace
 from ebac.tuned_laws import on_its_observer
 
@@ -38,6 +39,8 @@ class Worst:
         What was changed for every hand.
     pull : float
         Largest pull the hands were allowed [N].
+    pull_rate : float or None
+        How quickly their own force may change [N/s]; None: at once.
     declared : float or None
         Largest pull the law counts with [N], None for a law that declares none.
     reserve : float or None
@@ -50,6 +53,7 @@ class Worst:
     made: Any
     condition: Condition
     pull: float
+    pull_rate: float | None
     declared: float | None
     reserve: float | None
     hands: tuple[WorstHand, ...]
@@ -112,6 +116,7 @@ def worst(
     evaluations: int = EVALUATIONS,
     seed: int = 1,
     pull: float | None = None,
+    pull_rate: float | None = None,
     base: Scenario | None = None,
     threads: int | None = None,
     progress: Progress | None = None,
@@ -135,6 +140,9 @@ def worst(
         Of the search, [0, 2^31).
     pull : float, optional
         Largest pull of a hand [N], (0, 1000]; default: 20 N, or what the law declares where that is more.
+    pull_rate : float, optional
+        How quickly the own force K0 X0 of a hand, eq. (4), may change [N/s], [1, 1e9]; default: at once, as no person
+        can. A law's parameter `pull_rate` is how quickly it expects a pull to grow.
     base : Scenario, optional
         What the condition changes; default: the reference scenario.
     threads : int, optional
@@ -160,6 +168,9 @@ def worst(
     most = pull if pull is not None else max(PULL, declared or 0.0)
     _check(evaluations=(evaluations, 40, 10**7), seed=(seed, 0, 2**31 - 1), pull=(most, 1e-3, 1e3))
     wanted = [find_family(n, most) for n in dict.fromkeys(family or families(most))]
+    if pull_rate is not None:
+        _check(pull_rate=(pull_rate, 1, 1e9))
+        wanted = [no_quicker(one, pull_rate) for one in wanted]
     total = evaluations * len(wanted)
     report = progress or (lambda done, total: None)
     found = []
@@ -169,8 +180,8 @@ def worst(
         found.append(search.run(evaluations, seed))
     found.sort(key=lambda hand: (-hand.energy_J, -hand.most_drawn_J))
     return Worst(
-        law=law_name(law), made=made, condition=where, pull=most, declared=declared,
-        reserve=reserve_of(made, scenario), hands=tuple(found),
+        law=law_name(law), made=made, condition=where, pull=most, pull_rate=pull_rate,
+        declared=declared, reserve=reserve_of(made, scenario), hands=tuple(found),
     )  # fmt: skip
 
 
@@ -201,7 +212,7 @@ def _condition(given: str | Condition, base: Scenario) -> Condition:
 def _check(**numbers: tuple[float, float, float]) -> None:
     for name, (value, low, high) in numbers.items():
         if not low <= value <= high:
-            unit = " N" if name == "pull" else ""
+            unit = {"pull": " N", "pull_rate": " N/s"}.get(name, "")
             raise ValueError(
                 f"worst: {name} = {value:g}{unit}: must lie in [{low:g}, {high:g}]{unit}"
             )

@@ -61,6 +61,14 @@ def worst(
             rich_help_panel=_SEARCH,
         ),
     ] = None,
+    pull_rate: Annotated[
+        float | None,
+        typer.Option(
+            help="How quickly the own force of a hand may change [N/s]; the law expects its parameter pull_rate.",
+            show_default="at once",
+            rich_help_panel=_SEARCH,
+        ),
+    ] = None,
     threads: options.Threads = None,
     as_json: output.AsJson = False,
 ) -> None:
@@ -77,6 +85,8 @@ def worst(
     * `ebac worst --condition d2K10 --family swinging --evaluations 1000`
 
     * `ebac worst --change guard=off --family impact`: the same without the guard
+
+    * `ebac worst --pull-rate 1000`: hands that need a millisecond for each newton
     """
     from ebac.laws import Variant
     from ebac.studies.worst import worst as search
@@ -101,7 +111,7 @@ def worst(
         with output.counting("searching", quiet=as_json) as progress:
             found = search(
                 chosen, wanted, family=families or None, evaluations=evaluations, seed=seed, pull=pull,
-                base=base, threads=threads, progress=progress,
+                pull_rate=pull_rate, base=base, threads=threads, progress=progress,
             )  # fmt: skip
 
     def show() -> None:
@@ -127,7 +137,8 @@ def _one(changes: list[str]) -> str:
 
 def _document(found: Worst, evaluations: int, seed: int) -> str:
     return output.document(
-        "worst", found.rows(), allowed_pull_N=found.pull, declared_pull_N=found.declared,
+        "worst", found.rows(), allowed_pull_N=found.pull,
+        allowed_pull_rate_N_per_s=found.pull_rate, declared_pull_N=found.declared,
         evaluations=evaluations, seed=seed,
     )  # fmt: skip
 
@@ -184,6 +195,9 @@ def _show(found: Worst, evaluations: int) -> None:
     for p in top.family.parameters:
         span = f"[{formatting.quantity(p.low, p.unit)}, {formatting.quantity(p.high, p.unit)}]"
         output.say(f"  {p.name} = {formatting.quantity(top.values[p.name], p.unit)} of {span}")
+    if found.pull_rate is not None:
+        quickest = formatting.quantity(found.pull_rate, "N/s")
+        output.say(f"The own force of each hand changes by {quickest} at most.")
     output.say(_verdict(found, top))
     if evaluations < EVALUATIONS:
         output.say(
