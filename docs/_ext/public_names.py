@@ -35,8 +35,7 @@ class Public(SphinxDirective):
         names = [line.strip() for line in self.content if line.strip()] or public(module)
         shown = self.env.metadata.setdefault(self.env.docname, {}).setdefault("public", {})
         shown.setdefault(package, []).extend(names)
-        data = any(is_data(getattr(module, name, None)) for name in names)
-        comments = data_comments(module) if data else {}
+        comments = data_comments(module, [n for n in names if is_data(getattr(module, n, None))])
         lines = [f".. py:currentmodule:: {package}", "", ".. list-table::", "   :widths: 30 70", ""]
         details: list[str] = []
         for name in names:
@@ -66,17 +65,23 @@ def is_data(thing: Any) -> bool:
     return not callable(thing)
 
 
-def data_comments(module: ModuleType) -> dict[str, str]:
-    """Return the `#:` comments of a package's data, wherever in the package they stand."""
+def data_comments(module: ModuleType, names: list[str]) -> dict[str, str]:
+    """Return the `#:` comments of some of a package's data, wherever in the package they stand."""
     found: dict[str, str] = {}
+    if not names:
+        return found
+    given = re.compile(rf"^(?:{'|'.join(map(re.escape, names))})\b.*=", re.MULTILINE)
     inside = walk_packages(getattr(module, "__path__", []), module.__name__ + ".")
     for name in [module.__name__, *(part.name for part in inside)]:
         if "._core" in name or ".__main__" in name or ".cli" in name:
             continue
         try:
-            told = ModuleAnalyzer.for_module(name).find_attr_docs()
+            analyzer = ModuleAnalyzer.for_module(name)
         except PycodeError:
             continue
+        if not given.search(analyzer.code):  # to read one takes as long as all else of a page
+            continue
+        told = analyzer.find_attr_docs()
         found |= {key: " ".join(text).strip() for (owner, key), text in told.items() if not owner}
     return found
 

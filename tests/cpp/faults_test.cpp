@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "ebac/faults/case.hpp"
+#include "rounds.hpp"
 
 namespace ebac::faults::faults_test {
 namespace {
@@ -10,7 +11,8 @@ namespace {
 class EveryKind : public testing::TestWithParam<std::size_t> {};
 
 TEST_P(EveryKind, EndsAsItShould) {
-  for (std::uint64_t i = 0; i < 30; ++i) {
+  constexpr std::uint64_t kCases = rounds(30);
+  for (std::uint64_t i = 0; i < kCases; ++i) {
     const InjectedFault injected = injected_fault_of(/*seed=*/7, i * kKinds + GetParam());
     const Result result = run_case(injected);
     EXPECT_EQ(static_cast<int>(result.verdict), 0)
