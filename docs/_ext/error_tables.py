@@ -21,6 +21,7 @@ def faults() -> Iterator[Row]:
     header = (ROOT / "cpp/ebac/core/sample.hpp").read_text(encoding="utf-8")
     told = dict(re.findall(r"^\s*k\w+ = (\d+),\s*// (.+)$", header, re.M))
     page = (ROOT / "docs/explanation/safety.md").read_text(encoding="utf-8")
+    page = page.replace("](#", "](../explanation/safety.md#")  # of which this page shows a part
     remedies = dict(re.findall(r"^\| (\d+) \|(?:[^|]*\|){2} (.+?) \|$", page, re.M))
     for fault in Fault:
         number = str(int(fault))
