@@ -150,6 +150,20 @@ def test_a_hand_that_pulls_too_hard_does_not_count() -> None:
     assert free.measure(np.array([shares]))[0] > 0.1
 
 
+@pytest.mark.parametrize("name", FAMILIES)
+def test_a_run_is_as_long_as_asked(name: str) -> None:
+    """But for a hand that lets go later."""
+    usual, short, long = (
+        worst(family=[name], evaluations=40, seconds=seconds, threads=1).hands[0].scenario
+        for seconds in (None, 0.2, 10.0)
+    )
+    assert 0.5 <= usual.seconds <= 8.0
+    assert short.seconds == (
+        0.2 if np.isinf(short.hand.release_at) else short.hand.release_at + 0.5
+    )
+    assert long.seconds == 10.0
+
+
 def test_an_interrupt_ends_the_search() -> None:
     def stop(done: int, total: int) -> None:
         if done >= 45:
@@ -292,7 +306,7 @@ def test_a_law_that_is_told_otherwise_is_not_replayed_by_a_scenario() -> None:
         ),
         (("--condition", "five"), "give one"),
         (("--pull", "-1"), "pull = -1 N: must lie in"),
-        (("--seconds", "60"), "--seconds = 60 s: each family of hands has a length of its own"),
+        (("--seconds", "0.01"), "--seconds = 0.01 s: must lie in [0.1, 3600] s"),
     ],
 )
 def test_what_cannot_be_asked_is_refused(

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING, Protocol, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,6 +16,14 @@ if TYPE_CHECKING:
     from ebac.scenario import Scenario
 
 Values: TypeAlias = Mapping[str, float]
+
+
+class Make(Protocol):
+    """Puts the hand of some parameters on a scenario, for a run of some length [s] or that of the family."""
+
+    def __call__(self, s: Scenario, v: Values, seconds: float | None = None) -> Scenario:
+        """Return the scenario with its hand."""
+
 
 #: Largest pull of a hand [N] where a law declares none.
 PULL = 20.0
@@ -52,13 +60,14 @@ class Family:
     parameters : tuple of Parameter
         What varies.
     make : callable
-        A scenario with a straight wall and the parameters by name in, the scenario with the hand on it out.
+        A scenario with a straight wall and the parameters by name in, the scenario with the hand on it out. A third
+        argument is the length of the run [s]; None for that of the family, 2 to 8 s.
     """
 
     name: str
     summary: str
     parameters: tuple[Parameter, ...]
-    make: Callable[[Scenario, Values], Scenario]
+    make: Make
 
     def values(self, shares: NDArray[np.float64]) -> dict[str, float]:
         """Return the parameters at shares of their ranges, shape (len(parameters),), each in [0, 1]."""
@@ -172,31 +181,32 @@ def _hand(v: Values, path: Step | MinimumJerk | Sine | Tapping | Recorded) -> Ha
     return Hand(mass=v["mass"], damping=v["damping"], stiffness=v["stiffness"], path=path)
 
 
-def _impact(s: Scenario, v: Values) -> Scenario:
+def _impact(s: Scenario, v: Values, seconds: float | None = None) -> Scenario:
     surface, way = _surface(s), v["approach"]
     path = Step(target=surface + way + v["pull"] / v["stiffness"])
     assert isinstance(s.environment, Wall)
     farther = s.environment.replace(position=surface + way)
-    return s.replace(hand=_hand(v, path), environment=farther, seconds=2.0)
+    return s.replace(hand=_hand(v, path), environment=farther, seconds=seconds or 2.0)
 
 
-def _press_and_go(s: Scenario, v: Values) -> Scenario:
+def _press_and_go(s: Scenario, v: Values, seconds: float | None = None) -> Scenario:
     path = MinimumJerk(target=_surface(s) + v["pull"] / v["stiffness"], duration=v["duration"])
     end = v["duration"] + v["hold"]
-    return s.replace(hand=_hand(v, path).replace(release_at=end), seconds=end + 0.5)
+    length = max(end + 0.5, seconds or 0.0)
+    return s.replace(hand=_hand(v, path).replace(release_at=end), seconds=length)
 
 
-def _tapping(s: Scenario, v: Values) -> Scenario:
+def _tapping(s: Scenario, v: Values, seconds: float | None = None) -> Scenario:
     surface = _surface(s)
     path = Tapping(
         target=surface + v["pull"] / v["stiffness"],
         rest=surface - v["lift"],
         frequency=v["frequency"],
     )
-    return s.replace(hand=_hand(v, path), seconds=3.0)
+    return s.replace(hand=_hand(v, path), seconds=seconds or 3.0)
 
 
-def _swinging(s: Scenario, v: Values) -> Scenario:
+def _swinging(s: Scenario, v: Values, seconds: float | None = None) -> Scenario:
     most = v["pull"] / v["stiffness"]
     path = Sine(
         centre=_surface(s) + (1 - v["swing"]) * most,
@@ -204,10 +214,10 @@ def _swinging(s: Scenario, v: Values) -> Scenario:
         frequency=v["frequency"],
         phase=v["phase"],
     )
-    return s.replace(hand=_hand(v, path), seconds=4.0)
+    return s.replace(hand=_hand(v, path), seconds=seconds or 4.0)
 
 
-def _drive(s: Scenario, v: Values) -> Scenario:
+def _drive(s: Scenario, v: Values, seconds: float | None = None) -> Scenario:
     surface = _surface(s)
     assert isinstance(s.environment, Wall)
     inside = v["depth"] * (
@@ -219,11 +229,11 @@ def _drive(s: Scenario, v: Values) -> Scenario:
         frequency=v["frequency"],
         phase=v["phase"],
     )
-    return s.replace(hand=_hand(v, path), seconds=8.0)
+    return s.replace(hand=_hand(v, path), seconds=seconds or 8.0)
 
 
-def _noise(s: Scenario, v: Values) -> Scenario:
-    seconds = 3.0
+def _noise(s: Scenario, v: Values, seconds: float | None = None) -> Scenario:
+    seconds = seconds or 3.0
     n = int(seconds / v["hold"]) + 2
     random = np.random.Generator(np.random.PCG64(s.seed)).uniform(-1, 1, n)
     most = v["pull"] / v["stiffness"]
@@ -232,8 +242,8 @@ def _noise(s: Scenario, v: Values) -> Scenario:
     return s.replace(hand=_hand(v, Recorded(t=t.tolist(), x=x.tolist())), seconds=seconds)
 
 
-def _periodic(s: Scenario, v: Values) -> Scenario:
-    seconds = 3.0
+def _periodic(s: Scenario, v: Values, seconds: float | None = None) -> Scenario:
+    seconds = seconds or 3.0
     forces = [v[f"force_{i}"] for i in range(KNOTS)]
     n = int(np.ceil(seconds / v["period"])) * KNOTS + 1
     t = v["period"] / KNOTS * np.arange(n)

@@ -72,8 +72,10 @@ class HandSearch:
         pull: float,
         threads: int,
         report: Callable[[int], None],
+        seconds: float | None = None,
     ) -> None:
         self.family, self.base, self.law, self.pull = family, base, law, pull
+        self.seconds = seconds
         self.threads, self.report = threads, report
         self.runs = 0
         self.value = -np.inf
@@ -115,7 +117,7 @@ class HandSearch:
 
     def measure(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
         """Return what is maximised for points of the cube, shape (runs, parameters)."""
-        scenarios = [self.family.make(self.base, self.family.values(p)) for p in points]
+        scenarios = [self.made(self.family.values(p)) for p in points]
         columns = measure(
             [(s, self.law) for s in scenarios], threads=self.threads, limits=RunLimits(), watch=Watch()
         )  # fmt: skip
@@ -131,6 +133,10 @@ class HandSearch:
         self.runs += len(points)
         self.report(self.runs)
         return values
+
+    def made(self, values: dict[str, float]) -> Scenario:
+        """Return the scenario with the hand of some parameters."""
+        return self.family.make(self.base, values, self.seconds)
 
     def _polish(self, runs: int) -> None:
         import nlopt
@@ -162,7 +168,7 @@ class HandSearch:
             raise ValueError(f"family {self.family.name}: no run gave a number")
         point, columns = self.best
         values = self.family.values(point)
-        scenario = self.family.make(self.base, values)
+        scenario = self.made(values)
         turned = np.abs(np.diff(every_row(scenario, self.law)["f_applied"], axis=0)).sum()
         return WorstHand(
             family=self.family,

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ebac._core import Recorded
-from ebac.studies.families import Family
+from ebac.studies.families import Family, Values
 
 if TYPE_CHECKING:
     from ebac.scenario import Scenario
@@ -26,9 +26,11 @@ def no_quicker(family: Family, rate: float) -> Family:
     A hand begins without force at zero. What it makes of the motion of the handle, -K0 x - B0 v - M0 a, is not bounded,
     and one that lets go does so at once.
     """
-    return replace(
-        family, make=lambda scenario, values: _slowed(family.make(scenario, values), rate)
-    )
+
+    def make(s: Scenario, v: Values, seconds: float | None = None) -> Scenario:
+        return _slowed(family.make(s, v, seconds), rate)
+
+    return replace(family, make=make)
 
 
 def _slowed(scenario: Scenario, rate: float) -> Scenario:

@@ -115,6 +115,7 @@ def worst(
     family: Sequence[str] | None = None,
     evaluations: int = EVALUATIONS,
     seed: int = 1,
+    seconds: float | None = None,
     pull: float | None = None,
     pull_rate: float | None = None,
     base: Scenario | None = None,
@@ -138,6 +139,8 @@ def worst(
         Runs per family, at least 40; a search of fewer than the default misses worse hands.
     seed : int
         Of the search, [0, 2^31).
+    seconds : float, optional
+        Length of each run [s], [0.1, 3600]; default: 2 to 8 s, by family. A slow leak needs minutes to show.
     pull : float, optional
         Largest pull of a hand [N], (0, 1000]; default: 20 N, or what the law declares where that is more.
     pull_rate : float, optional
@@ -168,6 +171,8 @@ def worst(
     most = pull if pull is not None else max(PULL, declared or 0.0)
     _check(evaluations=(evaluations, 40, 10**7), seed=(seed, 0, 2**31 - 1), pull=(most, 1e-3, 1e3))
     wanted = [find_family(n, most) for n in dict.fromkeys(family or families(most))]
+    if seconds is not None:
+        _check(seconds=(seconds, 0.1, 3600))
     if pull_rate is not None:
         _check(pull_rate=(pull_rate, 1, 1e9))
         wanted = [no_quicker(one, pull_rate) for one in wanted]
@@ -176,7 +181,7 @@ def worst(
     found = []
     for i, one in enumerate(wanted):
         count = partial(_report, report, i * evaluations, total)
-        search = HandSearch(one, scenario, made, most, thread_count(threads), count)
+        search = HandSearch(one, scenario, made, most, thread_count(threads), count, seconds)
         found.append(search.run(evaluations, seed))
     found.sort(key=lambda hand: (-hand.energy_J, -hand.most_drawn_J))
     return Worst(
@@ -212,7 +217,7 @@ def _condition(given: str | Condition, base: Scenario) -> Condition:
 def _check(**numbers: tuple[float, float, float]) -> None:
     for name, (value, low, high) in numbers.items():
         if not low <= value <= high:
-            unit = {"pull": " N", "pull_rate": " N/s"}.get(name, "")
+            unit = {"pull": " N", "pull_rate": " N/s", "seconds": " s"}.get(name, "")
             raise ValueError(
                 f"worst: {name} = {value:g}{unit}: must lie in [{low:g}, {high:g}]{unit}"
             )

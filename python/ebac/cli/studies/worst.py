@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -17,10 +18,24 @@ if TYPE_CHECKING:
 _WHAT, _SEARCH = "Law and condition", "Search"
 
 
+@dataclass(frozen=True, kw_only=True)
+class Runs(options.RunOptions):
+    """The runs of a search."""
+
+    seconds: Annotated[
+        float | None,
+        options.option(
+            text="Length of each run [s]; a slow leak needs minutes to show",
+            default="2 to 8, by family",
+            panel=options.RUN,
+        ),
+    ] = None
+
+
 def worst(
     to: ResultOptions,
     device: options.DeviceOptions,
-    length: options.RunOptions,
+    length: Runs,
     law: Annotated[str, options.one_law(panel=_WHAT)] = "ebac",
     change: Annotated[
         list[str] | None,
@@ -92,11 +107,6 @@ def worst(
     from ebac.studies.worst import worst as search
 
     with output.refusing():
-        if length.seconds is not None:
-            raise ValueError(
-                f"--seconds = {length.seconds:g} s: each family of hands has a length of its own, 2 to 8 s; "
-                "leave it out, and simulate what was found for longer: ebac wall --scenario FILE.toml --seconds"
-            )
         name = by_name.one_law(law)
         chosen = Variant(name, setting.parse_change(_one(change))) if change else name
         base = from_options.scenario(device, length)
@@ -110,8 +120,8 @@ def worst(
         )
         with output.counting("searching", quiet=as_json) as progress:
             found = search(
-                chosen, wanted, family=families or None, evaluations=evaluations, seed=seed, pull=pull,
-                pull_rate=pull_rate, base=base, threads=threads, progress=progress,
+                chosen, wanted, family=families or None, evaluations=evaluations, seed=seed,
+                seconds=length.seconds, pull=pull, pull_rate=pull_rate, base=base, threads=threads, progress=progress,
             )  # fmt: skip
 
     def show() -> None:
@@ -120,7 +130,7 @@ def worst(
             _tell_replay(found, folder, name, changed=bool(change))
 
     to.report(
-        folder, "worst", _document(found, evaluations, seed), as_json=as_json,
+        folder, "worst", _document(found, evaluations, seed, length.seconds), as_json=as_json,
         fill=lambda draft: _fill(draft, found, to), show=show,
     )  # fmt: skip
 
@@ -135,11 +145,11 @@ def _one(changes: list[str]) -> str:
     return changes[0]
 
 
-def _document(found: Worst, evaluations: int, seed: int) -> str:
+def _document(found: Worst, evaluations: int, seed: int, seconds: float | None) -> str:
     return output.document(
         "worst", found.rows(), allowed_pull_N=found.pull,
         allowed_pull_rate_N_per_s=found.pull_rate, declared_pull_N=found.declared,
-        evaluations=evaluations, seed=seed,
+        evaluations=evaluations, seed=seed, seconds_s=seconds,
     )  # fmt: skip
 
 
