@@ -423,3 +423,39 @@ def test_a_bus_too_busy_is_refused_and_a_busy_one_warned_of(tmp_path: Path) -> N
 def test_a_frame_has_eight_bytes_at_most(size: int) -> None:
     with pytest.raises(ValueError, match=f"size = {size} bytes"):
         drives.frame_bits(size)
+
+
+def derived(line: str, rest: str = "[limits]\nrated_current = 1.25\n") -> drives.Profile:
+    return read_profile(Source(name="mine.toml", text=f'{rest}[objects]\n"0x3001:1" = {line}\n'))
+
+
+def test_an_object_may_follow_from_a_key() -> None:
+    [current] = derived('{ of = "limits.rated_current", unit = 1e-3 }').objects
+    assert (current.value, current.why) == (1250, "follows from limits.rated_current")
+
+
+def test_the_profile_of_an_epos_is_one_motor_throughout() -> None:
+    """Numbers of the drive's own that keep those of another motor make every force wrong."""
+    epos = drives.load("maxon-epos4", nodes=[5]).nodes[0].profile
+    mine = epos.replace(
+        limits__rated_torque=0.028, limits__rated_current=1.25, limits__max_current=5.0, motor__torque_constant=0.0224
+    )  # fmt: skip
+    raw = {one.object.where: one.value for one in mine.objects}
+    assert raw == {"0x3001:1": 1250, "0x3001:2": 5000, "0x3001:5": 22400, "0x6076": 28000}
+
+
+@pytest.mark.parametrize(
+    ("line", "message"),
+    [
+        ('{ of = "limits.current", unit = 1e-3 }', "of = 'limits.current': the profile has no number"),
+        ('{ of = "torque.mode", unit = 1e-3 }', "of = 'torque.mode': the profile has no number"),
+        ('{ of = "limits.rated_current" }', r"unit = None: must lie in \[1e-9, 1000\]"),
+        ('{ of = "limits.rated_current", unit = 0.5 }', "1.25 is 2.5 units of 0.5, more than 1 % off"),
+        ('{ of = "limits.rated_current", unit = 1e-3, value = 3 }', "value: must be of, unit, type or why"),
+        ('{ of = "limits.rated_current", unit = 1e-9, type = "u16" }', "1250000000: must lie in"),
+        ('{ of = "limits.rated_current", unit = 1e-3, type = "u17" }', "type = 'u17': must be one of"),
+    ],
+)  # fmt: skip
+def test_a_key_that_gives_no_number_is_refused(line: str, message: str) -> None:
+    with pytest.raises(drives.ProfileError, match=rf"mine.toml, line 4: .*{message}"):
+        derived(line)

@@ -8,6 +8,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from ebac.drives.objects import NUMBERS, Object, find, known
+from ebac.drives.profile_fields import Value
 from ebac.drives.setting import Setting
 from ebac.drives.toml_positions import Path as Where
 from ebac.drives.toml_positions import Source
@@ -21,9 +22,15 @@ _RESERVED = frozenset({0x1005, 0x1010, 0x1011, 0x1014, 0x1016, 0x1017})
 
 
 def read_objects(
-    source: Source, table: Any, path: Where, taken: Mapping[str, str]
+    source: Source,
+    table: Any,
+    path: Where,
+    taken: Mapping[str, str],
+    values: Mapping[str, Value],
 ) -> list[Setting]:
     """Return the objects of a table: "0x3001:1" = 985, or "0x2001" = { value = -5, type = "i16", why = "..." }.
+
+    A value of a key of the profile, in units of the maker's own, is { of = "limits.rated_current", unit = 1e-3 }.
 
     Parameters
     ----------
@@ -35,6 +42,8 @@ def read_objects(
         Where it stands.
     taken : mapping
         Names of objects that keys of the profile set, and those keys.
+    values : mapping
+        Values of the profile by key.
 
     Raises
     ------
@@ -67,16 +76,43 @@ def read_objects(
             )
         if key in reserved:
             raise source.refuse(at, f"objects: {name}: is set by {reserved[key]}: use that key")
-        found.append(_own(source, at, name, find(key), given))
+        found.append(_own(source, at, name, find(key), given, values))
     return found
 
 
-def _own(source: Source, at: Where, name: str, obj: Object, given: Any) -> Setting:
+def following(setting: Setting, values: Mapping[str, Value]) -> Setting:
+    """Return an object that follows from a key of the profile with the number of these values.
+
+    Raises
+    ------
+    ValueError
+        Where there is no such value, or the unit is too coarse for it.
+    """
+    if not setting.of:
+        return setting
+    value = values.get(setting.of)
+    if isinstance(value, bool) or not isinstance(value, (int, float)):
+        raise ValueError(f"of = {setting.of!r}: the profile has no number of that name; give one")
+    exact = value / setting.unit
+    if abs(round(exact) - exact) > 0.01 * abs(exact):
+        raise ValueError(
+            f"{setting.of} = {value:g} is {exact:.4g} units of {setting.unit:g}, more than 1 % off a whole number"
+        )
+    return dataclasses.replace(setting, value=round(exact))
+
+
+def _own(
+    source: Source, at: Where, name: str, obj: Object, given: Any, values: Mapping[str, Value]
+) -> Setting:
     parts = given if isinstance(given, Mapping) else {"value": given}
+    if "of" in parts:
+        return _derived(source, at, name, obj, parts, values)
     value, why = parts.get("value"), parts.get("why", "set by the profile")
     kind = parts.get("type", obj.kind)
     if unknown := set(parts) - {"value", "type", "why"}:
-        raise source.refuse(at, f"objects: {name}: {unknown.pop()}: must be value, type or why")
+        raise source.refuse(
+            at, f"objects: {name}: {unknown.pop()}: must be value, type or why, or of, unit and why"
+        )
     if kind not in NUMBERS:
         raise source.refuse(
             at, f"objects: {name}: type = {kind!r}: must be one of {', '.join(NUMBERS)}"
@@ -98,3 +134,44 @@ def _own(source: Source, at: Where, name: str, obj: Object, given: Any) -> Setti
         )
         raise source.refuse(at, f"objects: {name}: {error}{hint}") from None
     return Setting(object=typed, value=value, why=why, key=f"objects.{typed.where}")
+
+
+def _derived(
+    source: Source,
+    at: Where,
+    name: str,
+    obj: Object,
+    parts: Mapping[str, Any],
+    values: Mapping[str, Value],
+) -> Setting:
+    of, unit = parts["of"], parts.get("unit")
+    why = parts.get("why", f"follows from {of}")
+    if unknown := set(parts) - {"of", "unit", "type", "why"}:
+        raise source.refuse(at, f"objects: {name}: {unknown.pop()}: must be of, unit, type or why")
+    if isinstance(unit, bool) or not isinstance(unit, (int, float)) or not 1e-9 <= unit <= 1e3:
+        raise source.refuse(
+            at,
+            f"objects: {name}: unit = {unit!r}: must lie in [1e-9, 1000], what one unit of the drive is in SI units",
+        )
+    kind = parts.get("type", obj.kind)
+    if kind not in NUMBERS:
+        raise source.refuse(
+            at, f"objects: {name}: type = {kind!r}: must be one of {', '.join(NUMBERS)}"
+        )
+    typed = dataclasses.replace(obj, kind=kind, unit="")
+    try:
+        made = following(
+            Setting(
+                object=typed,
+                value=0,
+                why=str(why),
+                key=f"objects.{typed.where}",
+                of=str(of),
+                unit=unit,
+            ),
+            values,
+        )
+        typed.encode(made.value)
+    except ValueError as error:
+        raise source.refuse(at, f"objects: {name}: {error}") from None
+    return made

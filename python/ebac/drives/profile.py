@@ -16,7 +16,7 @@ from ebac._util.wrong_calls import plain_constructor
 from ebac.drives.errors import ProfileError
 from ebac.drives.load import Traffic
 from ebac.drives.objects import Object, find
-from ebac.drives.own_objects import read_objects
+from ebac.drives.own_objects import following, read_objects
 from ebac.drives.pdo import Pdo, read_pdo, sync_period
 from ebac.drives.profile_fields import BY_NAME, KEYS, RULES, Value
 from ebac.drives.setting import Setting
@@ -81,6 +81,11 @@ class Profile:
         for name in self.without:
             if (wrong := _not_without(name)) is not None:
                 raise ProfileError(f"{self.name}: {wrong}")
+        try:
+            objects = tuple(following(one, values) for one in self.objects)
+        except ValueError as error:
+            raise ProfileError(f"{self.name}: objects: {error}") from None
+        object.__setattr__(self, "objects", objects)
         if self._unbounded():
             raise ProfileError(
                 f"{self.name}: without names every limit of torque and current: the drive would allow any; give the "
@@ -202,7 +207,9 @@ def read_profile(source: Source, *, base: Profile | None = None, at: Where = ())
     owned = {one.object.key: one for one in base.objects} if base else {}
     if "objects" in table:
         taken = {key.sets: key.name for key in KEYS if key.sets and key.name not in without}
-        new = read_objects(source, table["objects"], (*at, "objects"), taken)
+        new = read_objects(
+            source, table["objects"], (*at, "objects"), taken, {**defaults, **merged}
+        )
         owned |= {one.object.key: one for one in new}
     about = table.get("about", base.about if base else "")
     if not isinstance(about, str):

@@ -27,6 +27,10 @@ class Setting:
         Whether a drive without the object, or one that keeps another value, is right as it is.
     key : str
         The key of the profile that wants it; empty where every profile does.
+    of : str
+        The key of the profile that `value` follows from; empty where it is given as it is.
+    unit : float
+        What of that key one raw unit is, in SI units.
     """
 
     object: Object
@@ -35,6 +39,8 @@ class Setting:
     mask: int | None = None
     optional: bool = False
     key: str = ""
+    of: str = ""
+    unit: float = 1.0
 
     def holds(self, data: bytes) -> bool:
         """Return whether the drive holds it already."""
