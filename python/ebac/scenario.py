@@ -208,6 +208,8 @@ class Scenario:
     def from_toml(cls, text: str, *, folder: str | Path | None = None) -> Self:
         """Read a scenario from TOML text; what is not named keeps its default.
 
+        A device or hand may start from one of `ebac.presets`: `[device] preset = "joystick"`.
+
         Parameters
         ----------
         text : str

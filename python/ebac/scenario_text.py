@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import dataclasses
 import warnings
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from ebac import presets
 from ebac._util import serialisation
 from ebac._util.foreign_worlds import foreign
 from ebac._util.mesh_paths import seen_from, seen_from_here
@@ -19,6 +21,8 @@ if TYPE_CHECKING:
 
 #: Tables that only a configuration of `ebac run` has.
 _OF_A_RUN = frozenset(("bus", "limits", "run", "signs", "simulated", "zero"))
+#: What a table may start from, by `preset`.
+_PRESETS: Mapping[str, Callable[[str], Any]] = {"device": presets.device, "hand": presets.hand}
 
 
 def text_of(scenario: Scenario, folder: Path | None) -> str:
@@ -81,4 +85,21 @@ def parts_of(text: str, kind: type[Scenario], folder: Path | None) -> dict[str, 
         )
     if folder is not None:
         table = seen_from_here(table, folder)
-    return serialisation.read_table(table, dataclasses.fields(kind), "scenario")
+    started = {name: _on_its_preset(name, make, table) for name, make in _PRESETS.items()}
+    rest = {name: item for name, item in table.items() if started.get(name) is None}
+    read = serialisation.read_table(rest, dataclasses.fields(kind), "scenario")
+    return read | {name: made for name, made in started.items() if made is not None}
+
+
+def _on_its_preset(name: str, make: Callable[[str], Any], table: Mapping[str, Any]) -> Any:
+    """Return the device or hand of a table on top of the one that it names; None where it names none."""
+    given = table.get(name)
+    if not isinstance(given, Mapping) or "preset" not in given:
+        return None
+    where = f"scenario.{name}"
+    try:
+        base = make(str(given["preset"]))
+    except KeyError as error:
+        raise ValueError(f"{where}.preset: {error.args[0]}") from None
+    parts = {key: item for key, item in given.items() if key != "preset"}
+    return serialisation.on_top(base, parts, where)

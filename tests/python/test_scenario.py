@@ -444,3 +444,35 @@ def test_an_error_of_a_file_names_its_line(
     file.write_text(text, encoding="utf-8")
     with pytest.raises(ValueError, match=rf"s\.toml, line {line}: {words}"):
         ebac.Scenario.load(file)
+
+
+PRESET = '[device]\npreset = "joystick"\n[device.mechanics]\ngravity = 0.0\n[hand]\npreset = "finger"\nmass = 0.02\n'
+
+
+def test_a_device_and_a_hand_may_start_from_a_preset() -> None:
+    found = ebac.Scenario.from_toml(PRESET)
+    joystick = ebac.presets.device("joystick")
+    carried = joystick.mechanics.replace(gravity=0.0)
+    assert found.device == joystick.replace(mechanics=carried)
+    assert found.hand == ebac.presets.hand("finger").replace(mass=0.02)
+    assert ebac.Scenario.from_toml(found.to_toml()) == found
+
+
+def test_a_preset_and_a_run_configuration_give_the_same_device() -> None:
+    tables = PRESET.partition("[hand]")[0]
+    known = ebac.hardware.Configuration.from_toml(tables, name="mine")
+    assert ebac.Scenario.from_toml(tables).device == known.device
+
+
+@pytest.mark.parametrize(
+    ("was", "given", "message"),
+    [
+        ('"joystick"', '"joystik"', r"scenario\.device\.preset: no device is called 'joystik', did you mean"),
+        ("gravity", "gravty", r"scenario\.device\.mechanics\.gravty: no such name, did you mean 'gravity'"),
+        ("mass = 0.02", "mass = -1.0", r"scenario\.hand: Hand\.mass = -1 kg: must lie in \[0, 10\] kg"),
+        ("gravity = 0.0", 'gravity = "no"', r"scenario\.device\.mechanics"),
+    ],
+)  # fmt: skip
+def test_what_stands_on_a_preset_is_refused_by_its_name(was: str, given: str, message: str) -> None:
+    with pytest.raises(ValueError, match=message):
+        ebac.Scenario.from_toml(PRESET.replace(was, given))

@@ -100,6 +100,29 @@ def from_document(name: str, item: Any, where: str) -> Any:
     return _build(_chosen(name, item, where), item, where)
 
 
+def on_top(base: Any, table: Mapping[str, Any], where: str) -> Any:
+    """Return a value of the core with the parts that a table names on top of it.
+
+    Raises
+    ------
+    ValueError
+        For an unknown name or type or a number out of range; the message names the place.
+    """
+    parts = base.as_dict()
+    refuse = next((name for name in table if name not in parts), None)
+    if refuse is not None:
+        raise ValueError(unknown(f"{where}.{refuse}", refuse, list(parts)))
+    changes = {}
+    for name, item in table.items():
+        here, part = f"{where}.{name}", parts[name]
+        nested = isinstance(item, Mapping) and hasattr(part, "as_dict") and "type" not in item
+        changes[name] = on_top(part, item, here) if nested else from_document(name, item, here)
+    try:
+        return base.replace(**changes)
+    except (ValueError, TypeError) as error:
+        raise ValueError(f"{where}: {error}") from None
+
+
 def read_table(table: Mapping[str, Any], fields: Iterable[Any], where: str) -> dict[str, Any]:
     """Return the keyword arguments of a dataclass with these `fields` from a table.
 
