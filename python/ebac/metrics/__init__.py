@@ -1,6 +1,7 @@
-"""Measure a contact with a wall, and the use of the observer, from a trace alone."""
+"""Measure a contact with a wall, the use of the observer, and what held the current back, from a trace alone."""
 
 from ebac.metrics.contact_result import Contact
+from ebac.metrics.current_limits import CurrentLimits, current_limits
 from ebac.metrics.energy_drawn import drawn, work_of_surfaces
 from ebac.metrics.ideal import EXACT_COUNTS, allowed_deviation, ideal_rest
 from ebac.metrics.observer import ObserverUse, observer_use
@@ -13,10 +14,12 @@ __all__ = [
     "STILL_SWING",
     "TAIL_SHARE",
     "Contact",
+    "CurrentLimits",
     "ObserverUse",
     "WorldContact",
     "allowed_deviation",
     "contact",
+    "current_limits",
     "drawn",
     "ideal_rest",
     "observer_use",

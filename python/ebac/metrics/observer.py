@@ -31,6 +31,8 @@ class ObserverUse:
 
     def __str__(self) -> str:
         """Return it as a sentence: "trusted in 97.1 % of the ticks; encoder alone: force stale in 2.2 %"."""
+        if self.fallback.get("off") == 1:
+            return "not used, this law acts on the encoder alone"
         reasons = ", ".join(
             f"{name.replace('_', ' ')} in {100 * share:.3g} %"
             for name, share in self.fallback.items()

@@ -19,11 +19,11 @@ def document(read: Log) -> str:
     """Return the JSON document."""
     from dataclasses import asdict
 
-    from ebac.metrics import observer_use
+    from ebac.metrics import current_limits, observer_use
 
     trace = read.trace
     t = trace["t"]
-    used = observer_use(trace)
+    used, limits = observer_use(trace), current_limits(trace)
     rows = [
         {"column": name, "unit": info.unit, "meaning": info.meaning, "type": str(trace[name].dtype),
          "values_per_row": 1 if trace[name].ndim == 1 else trace[name].shape[1]}
@@ -43,6 +43,7 @@ def document(read: Log) -> str:
         law=trace.law or None,
         law_repr=trace.law_repr or None,
         observer=None if used is None else asdict(used),
+        current_limited=None if limits is None else asdict(limits),
         start_s=read.about.start_ns / 1e9 if read.about.start_ns else None,
         made_by=dict(read.about.made_by),
         attachments=list(read.about.attachments),
@@ -94,7 +95,7 @@ def show(read: Log, *, meanings: bool = False) -> None:
 def _lines(read: Log) -> list[tuple[str, str]]:
     from datetime import UTC, datetime
 
-    from ebac.metrics import observer_use
+    from ebac.metrics import current_limits, observer_use
 
     trace, condition = read.trace, read.condition
     t = trace["t"]
@@ -121,6 +122,8 @@ def _lines(read: Log) -> list[tuple[str, str]]:
     ]
     if (used := observer_use(trace)) is not None:
         lines.append(("observer", str(used)))
+    if (limits := current_limits(trace)) is not None:
+        lines.append(("current held back", f"by {limits}"))
     if start:
         began = datetime.fromtimestamp(start / 1e9, UTC)
         lines.insert(3, ("began", f"{began:%Y-%m-%d %H:%M:%S} UTC"))

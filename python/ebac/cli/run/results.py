@@ -15,7 +15,7 @@ from ebac.cli.run.engine import Served, without_engine
 
 if TYPE_CHECKING:
     from ebac.hardware import Configuration, Report, Times
-    from ebac.metrics import Contact, ObserverUse
+    from ebac.metrics import Contact, CurrentLimits, ObserverUse
     from ebac.simulation import LoopFault
     from ebac.trace import Trace
     from ebac.worlds import EngineProcess
@@ -53,6 +53,8 @@ class Result:
         The same of `Configuration.simulate`, by its readings; None on hardware, and where a run changed on its way.
     observer : ObserverUse or None
         How far the law relied on the observer; None without one.
+    limits : CurrentLimits or None
+        What held the current back; None where nothing did.
     times : Times or None
         How quick and punctual the loop was.
     fault : str or None
@@ -73,6 +75,7 @@ class Result:
     contact: Contact | None
     expected: Contact | None
     observer: ObserverUse | None
+    limits: CurrentLimits | None
     times: Times | None
     fault: str | None
     virtual: bool = False
@@ -85,7 +88,7 @@ class Result:
     ) -> Self:
         """Measure a run on a virtual clock."""
         from ebac.hardware import Report
-        from ebac.metrics import FEWEST_ROWS, contact, observer_use
+        from ebac.metrics import FEWEST_ROWS, contact, current_limits, observer_use
 
         measured = len(trace) >= FEWEST_ROWS and fault is None
         return cls(
@@ -97,6 +100,7 @@ class Result:
             contact=contact(trace, truth=False) if measured else None,
             expected=None,
             observer=observer_use(trace),
+            limits=current_limits(trace),
             times=None,
             fault=None if fault is None else fault.fault.name.lower(),
             virtual=True,
@@ -117,7 +121,7 @@ class Result:
     ) -> Self:
         """Measure a run; `changed` on its way, or with an engine, it has no simulation beside it."""
         from ebac.hardware import times, under_the_law
-        from ebac.metrics import FEWEST_ROWS, contact, observer_use
+        from ebac.metrics import FEWEST_ROWS, contact, current_limits, observer_use
         from ebac.metrics.wall_contact import moves_with_hand
 
         part = under_the_law(trace)
@@ -136,6 +140,7 @@ class Result:
             contact=met,
             expected=_expected(configuration) if measured and whole and simulated else None,
             observer=observer_use(part),
+            limits=current_limits(part),
             times=times(part) if len(part) else None,
             fault=None if fault is None else fault.fault.name.lower(),
             changed=changed,
@@ -157,6 +162,7 @@ class Result:
             expected=None if self.expected is None else self.expected.row(),
             scenario=scenario,
             observer=None if self.observer is None else asdict(self.observer),
+            current_limited=None if self.limits is None else asdict(self.limits),
             times=None if self.times is None else asdict(self.times),
             fault=self.fault,
             changed=self.changed,
@@ -217,6 +223,8 @@ def show(result: Result) -> None:
         output.say(f"Observer: {result.observer}.")
     elif result.configuration.law == "ebac" and result.configuration.sensor is not None:
         output.say("By the encoder alone: with --observer the law acts on the force sensor, too.")
+    if result.limits is not None:
+        output.say(f"The current was held back by {result.limits}.", style="yellow")
     if result.engine is not None:
         still = " The verdict takes its surface to stand still." if result.engine.models else ""
         output.say(f"{result.engine}{still}")
