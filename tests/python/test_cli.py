@@ -794,8 +794,29 @@ def test_a_configuration_whose_wall_or_sensor_is_likely_in_a_wrong_unit_is_noted
 )
 def test_what_the_motor_cannot_give_at_rest_is_said(torque: float, said: str) -> None:
     """The ideal rest needs 11.7 N; 0.053, 0.03 and 0.01 N m hold 10.6, 6 and 2 N, at the peak four times that."""
-    from ebac.cli.wall.results import _beyond_the_motor
+    from ebac.cli.weak_motor import sentence
 
     scenario = ebac.Scenario(device=ebac.Device(motor=ebac.Motor(rated_torque=torque)))
-    assert _beyond_the_motor(scenario).startswith(said)
-    assert bool(_beyond_the_motor(scenario)) == bool(said)
+    assert sentence(scenario).startswith(said)
+    assert bool(sentence(scenario)) == bool(said)
+
+
+def test_hands_that_the_motor_is_too_weak_for_are_counted(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    from ebac.cli import weak_motor
+
+    base = ebac.Scenario()
+    weak_motor.tell(ebac.Operators.grid(), base)
+    assert capsys.readouterr().err == ""
+    weak = base.replace(
+        device=base.device.replace(motor=base.device.motor.replace(rated_torque=0.01))
+    )
+    weak_motor.tell(ebac.Operators.grid(), weak)
+    told = " ".join(capsys.readouterr().err.split())
+    presses = [
+        abs(s.hand.steady(ebac.ideal_rest(s))) for s in ebac.Operators.grid().scenarios(weak)
+    ]
+    count = sum(force > weak.device.peak_force for force in presses)
+    assert 0 < count < 60
+    assert f"{count} of the 60 hands press with more than the motor can give, 8 N" in told

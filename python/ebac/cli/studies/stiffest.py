@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from ebac.cli import by_name, doubtful_wall, from_options, interrupts, options, output
+from ebac.cli import by_name, doubtful_wall, from_options, interrupts, options, output, weak_motor
 from ebac.cli.files import ResultOptions
 from ebac.cli.studies import changed_laws, study_results
 
@@ -81,6 +81,7 @@ def stiffest(
             "threads": threads,
             **({"stiffnesses": wall_stiffness} if wall_stiffness else {}),
         }
+        weak_motor.tell(given["population"], given["base"])
     folder = to.folder("stiffest", as_json=as_json, resume=study_results.BUNDLES * resume)
     found = _run(laws, given, folder, resume, quiet=as_json)
     to.report(

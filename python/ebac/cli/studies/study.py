@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from ebac.cli import by_name, from_options, interrupts, options, output
+from ebac.cli import by_name, from_options, interrupts, options, output, weak_motor
 from ebac.cli.files import PANEL, ResultOptions
 from ebac.cli.studies import replaced, study_results
 
@@ -86,6 +86,7 @@ def study(
             "threads": threads,
         }
         replaced.tell(given["base"], given["conditions"])
+        weak_motor.tell(people, given["base"])
     folder = to.folder("study", as_json=as_json, resume=study_results.BUNDLES * resume)
     found = _run(people, names, given, folder, resume, quiet=as_json)
     to.report(

@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NoReturn, TypeAlias
 
-from ebac.cli import output
+from ebac.cli import output, weak_motor
 from ebac.cli.files import ResultOptions, new_file
 
 if TYPE_CHECKING:
@@ -43,8 +43,6 @@ LINES = (
 
 #: More laws than this side by side do not fit 80 columns.
 LAWS_ABREAST = 4
-#: A rest that needs so many times the continuous force: the winding is as hot as it may be after one time constant.
-WARM = 1.25
 
 
 def write(
@@ -157,7 +155,7 @@ def show(
     show_contacts(contacts)
     if why := no_ideal_rest(scenario):
         output.say(f"Not judged exact, there is no ideal rest: {why}.")
-    elif weak := _beyond_the_motor(scenario):
+    elif weak := weak_motor.sentence(scenario):
         output.say(weak)
     for first in range(0, len(bodies or []), LAWS_ABREAST):
         part = slice(first, first + LAWS_ABREAST)
@@ -170,26 +168,6 @@ def show(
             "through a CAN bus in this process, with simulated CANopen drives, torque in whole thousandths of the "
             "rated one: the same to the bit without the bus by --device-permille"
         )
-
-
-def _beyond_the_motor(scenario: Scenario) -> str:
-    """Return what the motor cannot give at the ideal rest, or not for long; else nothing."""
-    from ebac import Linear
-    from ebac.metrics.ideal import ideal_rest
-
-    device, ideal = scenario.device, ideal_rest(scenario)
-    if ideal is None or not isinstance(device.kinematics, Linear):
-        return ""
-    force = abs(scenario.hand.steady(ideal))
-    needs = f"the ideal rest needs {force:.3g} N, and the motor"
-    if force > device.peak_force:
-        return f"No law can be exact: {needs} gives {device.peak_force:.3g} N at most."
-    if force > WARM * device.continuous_force:
-        return (
-            f"Too hot to be held: {needs} gives {device.continuous_force:.3g} N for ever (rated_torque). Its heat is "
-            "not simulated; `ebac run` limits it."
-        )
-    return ""
 
 
 def show_fallbacks(traces: list[Trace]) -> None:
