@@ -230,6 +230,14 @@ def test_the_limits_of_the_drives_count_on_a_virtual_clock_too(
     assert doubtful_run.doubts(known) == []
 
 
+def test_a_wall_that_no_table_names_is_noted() -> None:
+    text = EXAMPLE.read_text()
+    before, _, rest = text.partition("[environment]")
+    bare = Configuration.from_toml(before + rest[rest.index("[law]") :], name="bare")
+    (said,) = doubtful_run.doubts(bare)
+    assert "no [environment]: the default wall of 10000 N/m stands at 0 m" in said
+
+
 def test_a_soft_wall_behind_the_stops_is_noted() -> None:
     known = Configuration.load(EXAMPLE)
     (said,) = doubtful_run.doubts(known.replace(limits=known.limits.replace(edge=0.06, end=0.07)))

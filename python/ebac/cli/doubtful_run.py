@@ -22,7 +22,30 @@ def tell(file: Path | str, known: Configuration) -> None:
 
 def doubts(known: Configuration) -> list[str]:
     """Return a sentence for each number that is likely not meant, with the remedy."""
-    return [*_weight_of_the_joystick(known), *_edge_behind_the_stops(known), *_weak_drives(known)]
+    return [
+        *_default_wall(known),
+        *_weight_of_the_joystick(known),
+        *_edge_behind_the_stops(known),
+        *_weak_drives(known),
+    ]
+
+
+def _default_wall(known: Configuration) -> list[str]:
+    from ebac._core import Wall
+    from ebac._util.toml import parsed
+
+    wall = known.environment
+    if (
+        known.engine
+        or not known.text
+        or "environment" in parsed(known.text)
+        or not isinstance(wall, Wall)
+    ):
+        return []
+    return [
+        f"no [environment]: the default wall of {wall.stiffness:g} N/m stands at {wall.position:g} m, where the zero "
+        'of the handle is; write [environment], with type = "Free" for none'
+    ]
 
 
 def _weight_of_the_joystick(known: Configuration) -> list[str]:
