@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from ebac import presets
 from ebac._util import serialisation
+from ebac._util.file_kinds import CONFIGURATION, NETWORK, PROFILE, kind_of
 from ebac._util.foreign_worlds import foreign
 from ebac._util.mesh_paths import seen_from, seen_from_here
 from ebac._util.text_file import read_text
@@ -20,7 +21,6 @@ if TYPE_CHECKING:
     from ebac.scenario import Scenario
 
 #: Tables that only a configuration of `ebac run` has.
-_OF_A_RUN = frozenset(("bus", "limits", "run", "signs", "simulated", "zero"))
 #: What a table may start from, by `preset`.
 _PRESETS: Mapping[str, Callable[[str], Any]] = {"device": presets.device, "hand": presets.hand}
 
@@ -69,7 +69,7 @@ def _why_not(scenario: Scenario) -> str:
 
 def is_configuration(file: Path) -> bool:
     """Return whether a file that can be read has a table of a configuration of `ebac run`."""
-    return not _OF_A_RUN.isdisjoint(parsed(read_text(file)))
+    return kind_of(parsed(read_text(file))) == CONFIGURATION
 
 
 def parts_of(text: str, kind: type[Scenario], folder: Path | None) -> dict[str, Any]:
@@ -78,7 +78,12 @@ def parts_of(text: str, kind: type[Scenario], folder: Path | None) -> dict[str, 
         table = parsed(text)
     except ValueError as error:
         raise ValueError(f"not a TOML document: {error}") from None
-    if not _OF_A_RUN.isdisjoint(table):
+    kind_of_file = kind_of(table)
+    if kind_of_file in (NETWORK, PROFILE):
+        raise ValueError(
+            f"this is {kind_of_file}, not a scenario, which describes a device in [device]"
+        )
+    if kind_of_file == CONFIGURATION:
         raise ValueError(
             "this is a configuration of `ebac run`, not a scenario: `ebac run FILE --virtual` simulates it; for a "
             "scenario copy its tables [device], [timing], [environment], and [simulated.hand] as [hand]"

@@ -221,7 +221,6 @@ def test_a_configuration_of_a_run_is_not_taken_for_a_network_file(
     example = (EXAMPLES / "joystick.toml").read_text(encoding="utf-8")
     mine = tmp_path / "my-joystick.toml"
     for names, text in [
-        ("joystick", "[device]\npreset = 'reference'\n"),
         ("joystick", example),
         (str(tmp_path / "net.toml"), example.replace('"joystick"', '"net.toml"')),
     ]:

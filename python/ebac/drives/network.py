@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from ebac._util.arguments import require_path, unknown
+from ebac._util.file_kinds import SCENARIO, kind_of
 from ebac._util.wrong_calls import plain_constructor
 from ebac.drives.eds import Sheet, read_eds
 from ebac.drives.errors import ProfileError
@@ -123,6 +124,12 @@ def load(name: str | Path, *, nodes: Sequence[int] = (), bitrate: int | None = N
 
 def _refuse_configuration(source: Source) -> None:
     """Refuse the configuration of a run, and name the file of its drives."""
+    kind = kind_of(source.table)
+    if kind == SCENARIO:
+        raise ProfileError(
+            f"{source.name}: is {kind}, which names no drives; give a network file or a profile of drives: `ebac drive "
+            "profile` lists those that are built in"
+        )
     bus = source.table.get("bus")
     found = bus.get("drives") if isinstance(bus, Mapping) else None
     if found is None and {"device", "environment", "law"}.isdisjoint(source.table):

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from ebac import presets
 from ebac._core import BridgeParams, Device, Hand, Limits, Observer, RealTime, TimedBus, Timing
+from ebac._util.file_kinds import PROFILE, kind_of
 from ebac._util.mesh_paths import seen_from_here
 from ebac._util.serialisation import from_document
 from ebac.drives.errors import ProfileError
@@ -67,6 +68,11 @@ def read(source: Source) -> dict[str, Any]:
     if "node" in source.table:
         wrong = "node: this is a network file; give the configuration of `ebac run` that names it in bus.drives"
         raise source.refuse(("node",), f"{wrong}: `ebac demo joystick` writes one")
+    if kind_of(source.table) == PROFILE:
+        wrong = "this is a profile of a drive; give the configuration of `ebac run` whose network file names it"
+        raise source.refuse(
+            (next(iter(source.table)),), f"{wrong}: `ebac demo joystick` writes one"
+        )
     known(source, (), TABLES)
     values: dict[str, Any] = {"name": source.name, "text": source.text}
     values |= _bus(source)
@@ -104,6 +110,15 @@ def _maybe_scenario(source: Source) -> str:
     )
 
 
+def _without_a_bus(source: Source) -> str:
+    """Return a hint where the drives are those that no [bus] names."""
+    if "bus" in source.table:
+        return ""
+    return ". The file has no [bus], so its drives are the built-in joystick's" + _maybe_scenario(
+        source
+    )
+
+
 def _bus(source: Source) -> dict[str, Any]:
     from ebac.drives.network import load
 
@@ -114,7 +129,8 @@ def _bus(source: Source) -> dict[str, Any]:
     try:
         network = load(beside if beside.is_file() else asked)
     except ProfileError as error:
-        raise source.refuse(("bus", "drives"), f"bus.drives: {error}") from None
+        wrong = str(error).replace("choose one with --node, or write", "write")  # a run has no such option
+        raise source.refuse(("bus", "drives"), f"bus.drives: {wrong}") from None
     return {
         "interface": word(
             source, ("bus", "interface"), found.get("interface", "socketcan"), ["socketcan", "ebac"]
@@ -295,7 +311,8 @@ def _fit(source: Source, values: Mapping[str, Any]) -> None:
                 raise source.refuse(
                     ("bus", "drives"),
                     f"bus.drives: node {node.id} of {drives.name} has {key} = {float(theirs):g}, the device "
-                    f"{name} = {own:g}: must be the same within 1 %, or every {what} is wrong; set one of them",
+                    f"{name} = {own:g}: must be the same within 1 %, or every {what} is wrong; set one of them"
+                    + _without_a_bus(source),
                 )
     refusing(
         source,
