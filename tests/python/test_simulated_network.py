@@ -20,7 +20,7 @@ from ebac.cli import app
 from ebac.drives.profile import read_source
 from ebac.hardware import Configuration, Signs, find_signs
 from ebac.hardware.dictionary import dictionary
-from ebac.hardware.wiring import wired_with_signs, wiring_of
+from ebac.hardware.wiring import wiring_of
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "sheets"))
 sys.path.insert(0, str(Path(__file__).parents[1] / "buses"))
@@ -105,7 +105,7 @@ def test_an_object_of_the_maker_is_as_wide_as_its_type(
 
 def test_drives_have_the_ids_zero_and_signs_of_the_configuration(own: Path) -> None:
     known = Configuration.load(own)
-    wiring = wired_with_signs(known)
+    wiring = wiring_of(known)
     assert wiring["nodes"] == [9, 5]
     assert wiring["sheets"][1] == []  # the simulated drive's own dictionary is enough
     assert (wiring["zero"], wiring["motor"], wiring["encoder"]) == ([100, -7], [-1, 1], [1, -1])
@@ -166,7 +166,7 @@ def test_a_run_is_simulated_on_drives_of_other_makers(own: Path) -> None:
 def test_signs_are_found_on_drives_that_stand_on_a_bus_of_their_own(own: Path) -> None:
     """As with `ebac drive simulate FILE` and `ebac drive signs FILE`, without its --simulated."""
     known = Configuration.load(own)
-    wiring = DriveWiring(**wired_with_signs(known))
+    wiring = DriveWiring(**wiring_of(known))
     patient = known.limits.replace(overruns=100_000, pause=100, jump=1.0, speed=100.0)
     channel = f"own-{os.getpid()}"
     here = known.replace(
@@ -193,7 +193,7 @@ def test_a_run_refuses_a_drive_of_another_maker_than_its_data_sheet(own: Path) -
     text = NETWORK.replace('"maxon-epos4"', '"maxon-epos4"\neds = "epos4.eds"')
     (own.parent / "net.toml").write_text(text, encoding="utf-8")
     known = Configuration.load(own)
-    wired = wired_with_signs(known)
+    wired = wiring_of(known)
     vendor = {(0x1018, 1): 0x286}
     wired["sheets"][0] = [(*r[:7], vendor.get(r[:2], r[7]), r[8]) for r in wired["sheets"][0]]
     channel = f"other-{os.getpid()}"

@@ -43,7 +43,6 @@ BEGIN = (12345, -7)
 #: 6.1 mm at the handle.
 FEW = 200
 KNOWN = Configuration.load(EXAMPLE)
-NOWHERE = Backend(interface="ebac", channel="none", bus="none", about="")
 INT32 = st.integers(LEAST, MOST)
 _numbers = count()
 
@@ -190,10 +189,24 @@ def test_where_an_axis_stands_is_the_same_for_every_zero(zero: int, way: int, si
     signs = Signs(motor=(1, 1), encoder=(sign, 1))
     known = KNOWN.replace(zero=Zero(counts=(zero, 0)), signs=signs)
     shown = (zero + way - LEAST) % 2**32 + LEAST
-    first, second = positions_of(known, NOWHERE, [shown, 0])
+    first, second = positions_of(known, [shown, 0])
     assert first.position_m == pytest.approx(sign * way * known.device.count)
     assert first.angle_rad == pytest.approx(first.position_m / known.device.radius)
     assert second.position_m == 0
+
+
+@pytest.mark.parametrize("told", [1, -1])
+@pytest.mark.parametrize("needed", [1, -1])
+def test_a_simulated_encoder_is_read_as_a_real_one(told: int, needed: int) -> None:
+    """What the drive shows is turned by [signs] alone, however the simulated device is wired."""
+    known = KNOWN.replace(
+        signs=Signs(motor=(1, 1), encoder=(1, told)),
+        simulated_signs=Signs(motor=(1, 1), encoder=(1, needed)),
+        simulated_zero=Zero(counts=(300, -700)),
+    )
+    first, second = axis_positions(known, simulate=True)
+    assert (first.counts, second.counts) == (300, -700)
+    assert second.position_m == pytest.approx(told * -700 * known.device.count)
 
 
 @pytest.mark.parametrize(
@@ -213,7 +226,7 @@ def test_the_distance_of_the_world_is_that_of_its_surfaces(
     world: Any, expected: dict[str, float]
 ) -> None:
     known = KNOWN.replace(environment=world)
-    found = distances(known, positions_of(known, NOWHERE, [1000, 0]))
+    found = distances(known, positions_of(known, [1000, 0]))
     assert found == pytest.approx(expected, abs=1e-6)
 
 

@@ -102,12 +102,10 @@ def read_positions(known: Configuration, backend: Backend) -> list[AxisPosition]
                     f"node {drive.node} has power: end the program that commands it, then read its position",
                     node=drive.node,
                 )
-        return positions_of(known, backend, [drive.number("position") for drive in drives])
+        return positions_of(known, [drive.number("position") for drive in drives])
 
 
-def positions_of(
-    known: Configuration, backend: Backend, counts: Sequence[int]
-) -> list[AxisPosition]:
+def positions_of(known: Configuration, counts: Sequence[int]) -> list[AxisPosition]:
     """Return the positions of axes whose drives show these counts."""
     device = known.device
     axes = zip(
@@ -115,7 +113,7 @@ def positions_of(
         counts,
         device.kinematics.travel,
         known.zero.of_all(device.axes),
-        backend.signs(known).of_all(device.axes).encoder,
+        known.signs.of_all(device.axes).encoder,
         strict=True,
     )
     found = []

@@ -24,7 +24,6 @@ if TYPE_CHECKING:
         _DrivenMachine,
     )
     from ebac.hardware.configuration import Configuration
-    from ebac.hardware.signs import Signs
     from ebac.sensor import SensorConfig
 
 #: How long a simulated drive may take to answer [s]: it shares its processors with all else.
@@ -66,10 +65,6 @@ class Backend:
     aim: SharedHandTarget | None = None
     grants: Sequence[Grant] = ()
     real: bool = False
-
-    def signs(self, known: Configuration) -> Signs:
-        """Return the signs to apply. On a simulated device with other signs than configured, the error remains."""
-        return known.signs if self.aim is None else known.signs.against(known.simulated_signs)
 
 
 @contextmanager

@@ -44,7 +44,7 @@ def power_up(
     positions: list[AxisPosition] = []
 
     def check(counts: list[int]) -> None:
-        positions[:] = positions_of(known, backend, counts)
+        positions[:] = positions_of(known, counts)
         check_workspace(known, positions)
         check_outside(known, positions, scenario.environment)
 

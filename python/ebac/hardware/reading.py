@@ -129,7 +129,8 @@ def _bus(source: Source) -> dict[str, Any]:
     try:
         network = load(beside if beside.is_file() else asked)
     except ProfileError as error:
-        wrong = str(error).replace("choose one with --node, or write", "write")  # a run has no such option
+        # A run has no such option.
+        wrong = str(error).replace("choose one with --node, or write", "write")
         raise source.refuse(("bus", "drives"), f"bus.drives: {wrong}") from None
     return {
         "interface": word(

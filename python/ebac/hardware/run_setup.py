@@ -39,7 +39,7 @@ def run_setup(
     """
     check_seconds(seconds)
     dt = known.timing.dt
-    signs = backend.signs(known)
+    signs = known.signs
     ticks = max(1, round(seconds / dt))
     profiles = [node.profile.values for node in nodes]
     guards = [float(values.get("heartbeat.guard", 0.0)) for values in profiles]

@@ -64,10 +64,10 @@ def by_configuration(file: Path, hand: str | None, seed: int | None, eds: Path |
     from ebac import presets
     from ebac.drives import read_eds
     from ebac.hardware import Configuration
-    from ebac.hardware.wiring import wired_with_signs
+    from ebac.hardware.wiring import wiring_of
 
     known = Configuration.load(file)
-    wiring = wired_with_signs(known)
+    wiring = wiring_of(known)
     if eds is not None:
         sheet = read_eds(eds)
         wiring["sheets"] = [sheet.rows(node) for node in wiring["nodes"]]
