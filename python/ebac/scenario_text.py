@@ -20,7 +20,6 @@ from ebac.hands import is_own
 if TYPE_CHECKING:
     from ebac.scenario import Scenario
 
-#: Tables that only a configuration of `ebac run` has.
 #: What a table may start from, by `preset`.
 _PRESETS: Mapping[str, Callable[[str], Any]] = {"device": presets.device, "hand": presets.hand}
 
@@ -78,12 +77,10 @@ def parts_of(text: str, kind: type[Scenario], folder: Path | None) -> dict[str, 
         table = parsed(text)
     except ValueError as error:
         raise ValueError(f"not a TOML document: {error}") from None
-    kind_of_file = kind_of(table)
-    if kind_of_file in (NETWORK, PROFILE):
-        raise ValueError(
-            f"this is {kind_of_file}, not a scenario, which describes a device in [device]"
-        )
-    if kind_of_file == CONFIGURATION:
+    found = kind_of(table)
+    if found in (NETWORK, PROFILE):
+        raise ValueError(f"this is {found}, not a scenario, which describes a device in [device]")
+    if found == CONFIGURATION:
         raise ValueError(
             "this is a configuration of `ebac run`, not a scenario: `ebac run FILE --virtual` simulates it; for a "
             "scenario copy its tables [device], [timing], [environment], and [simulated.hand] as [hand]"

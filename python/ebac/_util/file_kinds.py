@@ -9,7 +9,22 @@ from typing import Any
 _KINDS = (
     ("a network file of drives", {"node"}),
     ("a profile of a drive", {"pdo", "torque", "drive", "heartbeat", "emcy", "motor", "without"}),
-    ("a configuration of `ebac run`", {"bus", "limits", "run", "signs", "simulated", "zero"}),
+    (
+        "a configuration of `ebac run`",
+        {
+            "bus",
+            "signs",
+            "zero",
+            "engine",
+            "law",
+            "limits",
+            "run",
+            "realtime",
+            "recording",
+            "sensor",
+            "simulated",
+        },
+    ),
     ("a scenario", {"device", "hand", "environment", "timing", "seconds", "jitter", "seed"}),
 )
 NETWORK, PROFILE, CONFIGURATION, SCENARIO = (name for name, _ in _KINDS)
