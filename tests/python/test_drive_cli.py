@@ -205,9 +205,7 @@ def test_one_node_of_a_network_and_a_profile_of_ones_own(drive: Run, tmp_path: P
     )
     names = {row["name"] for row in drive("plan", str(mine), "-n", "1", "--json")["rows"]}
     assert "max_torque" in names
-    assert "is a profile for any node: choose one with --node" in said(
-        drive("plan", str(mine), code=2)
-    )
+    assert "is a profile for any node: a configuration" in said(drive("plan", str(mine), code=2))
     mine.write_text("[limits]\nrated_torque = -1\n", encoding="utf-8")
     message = said(drive("plan", str(mine), "-n", "1", code=2))
     assert "line 2: limits.rated_torque = -1 N m: must lie in [0.001, 1000] N m" in message

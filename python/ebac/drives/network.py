@@ -115,8 +115,8 @@ def load(name: str | Path, *, nodes: Sequence[int] = (), bitrate: int | None = N
     profile = read_profile(source)
     if not nodes:
         raise ProfileError(
-            f"{source.name}: is a profile for any node: choose one with --node, or write a network file with [[node]] "
-            "tables, which a configuration of `ebac run` needs: `ebac drive profile joystick` prints one"
+            f"{source.name}: is a profile for any node: a configuration of `ebac run` needs a network file, whose "
+            "[[node]] tables name it (`ebac drive profile joystick` prints one); a command of one drive takes --node"
         )
     chosen = tuple(Node(id=node, profile=profile) for node in dict.fromkeys(nodes))
     return Network(name=called, nodes=chosen, bitrate=bitrate or 1_000_000)

@@ -108,15 +108,11 @@ def _own(
     if "of" in parts:
         return _derived(source, at, name, obj, parts, values)
     value, why = parts.get("value"), parts.get("why", "set by the profile")
-    kind = parts.get("type", obj.kind)
     if unknown := set(parts) - {"value", "type", "why"}:
         raise source.refuse(
             at, f"objects: {name}: {unknown.pop()}: must be value, type or why, or of, unit and why"
         )
-    if kind not in NUMBERS:
-        raise source.refuse(
-            at, f"objects: {name}: type = {kind!r}: must be one of {', '.join(NUMBERS)}"
-        )
+    kind = _kind(source, at, name, parts.get("type", obj.kind))
     if isinstance(value, bool) or not isinstance(value, int) or not isinstance(why, str):
         raise source.refuse(
             at, f"objects: {name} = {given!r}: must be a whole number, as the drive holds it"
@@ -153,25 +149,21 @@ def _derived(
             at,
             f"objects: {name}: unit = {unit!r}: must lie in [1e-9, 1000], what one unit of the drive is in SI units",
         )
-    kind = parts.get("type", obj.kind)
-    if kind not in NUMBERS:
-        raise source.refuse(
-            at, f"objects: {name}: type = {kind!r}: must be one of {', '.join(NUMBERS)}"
-        )
+    kind = _kind(source, at, name, parts.get("type", obj.kind))
     typed = dataclasses.replace(obj, kind=kind, unit="")
+    key = f"objects.{typed.where}"
+    blank = Setting(object=typed, value=0, why=str(why), key=key, of=str(of), unit=unit)
     try:
-        made = following(
-            Setting(
-                object=typed,
-                value=0,
-                why=str(why),
-                key=f"objects.{typed.where}",
-                of=str(of),
-                unit=unit,
-            ),
-            values,
-        )
+        made = following(blank, values)
         typed.encode(made.value)
     except ValueError as error:
         raise source.refuse(at, f"objects: {name}: {error}") from None
     return made
+
+
+def _kind(source: Source, at: Where, name: str, kind: Any) -> str:
+    if kind not in NUMBERS:
+        raise source.refuse(
+            at, f"objects: {name}: type = {kind!r}: must be one of {', '.join(NUMBERS)}"
+        )
+    return str(kind)

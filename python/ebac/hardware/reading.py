@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from ebac import presets
 from ebac._core import BridgeParams, Device, Hand, Limits, Observer, RealTime, TimedBus, Timing
-from ebac._util.file_kinds import PROFILE, kind_of
+from ebac._util.file_kinds import PROFILE, SCENARIO, kind_of
 from ebac._util.mesh_paths import seen_from_here
 from ebac._util.serialisation import from_document
 from ebac.drives.errors import ProfileError
@@ -102,7 +102,7 @@ def read(source: Source) -> dict[str, Any]:
 
 def _maybe_scenario(source: Source) -> str:
     """Return a hint where nothing but the parts of a scenario is there; "" otherwise."""
-    if not source.table.keys() <= {"device", "timing", "environment", "observer"}:
+    if kind_of(source.table) != SCENARIO:
         return ""
     return (
         ". It has no table of a configuration of `ebac run`, such as [bus]: if it is a scenario or a device, `ebac "
@@ -129,9 +129,7 @@ def _bus(source: Source) -> dict[str, Any]:
     try:
         network = load(beside if beside.is_file() else asked)
     except ProfileError as error:
-        # A run has no such option.
-        wrong = str(error).replace("choose one with --node, or write", "write")
-        raise source.refuse(("bus", "drives"), f"bus.drives: {wrong}") from None
+        raise source.refuse(("bus", "drives"), f"bus.drives: {error}") from None
     return {
         "interface": word(
             source, ("bus", "interface"), found.get("interface", "socketcan"), ["socketcan", "ebac"]

@@ -17,9 +17,10 @@ _ASKS = "A run on hardware asks whether the zero of the encoders is right."
 
 def names_its_drives(known: Configuration, instead: str) -> None:
     """End the command where a file has nothing that only hardware has; `instead` is a remedy."""
+    from ebac._util.file_kinds import SCENARIO, kind_of
     from ebac._util.toml import parsed
 
-    if parsed(known.text).keys() <= {"device", "timing", "environment", "observer"}:
+    if known.text and kind_of(parsed(known.text)) in (SCENARIO, ""):
         output.fail(
             f"{known.name}: no table of it says which bus and drives these are, such as [bus]; {instead}, or write "
             "[bus] into it for hardware"
