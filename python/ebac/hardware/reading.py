@@ -3,25 +3,25 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ebac import presets
 from ebac._core import BridgeParams, Device, Hand, Limits, Observer, RealTime, TimedBus, Timing
-from ebac._util.file_kinds import PROFILE, SCENARIO, kind_of
+from ebac._util.file_kinds import PROFILE, kind_of
 from ebac._util.mesh_paths import seen_from_here
 from ebac._util.serialisation import from_document
 from ebac.drives.errors import ProfileError
 from ebac.drives.toml_positions import Source
 from ebac.hardware.configuration_fields import BUS, RECORDING, RUN, number, word
+from ebac.hardware.fit import check_fit
 from ebac.hardware.signs import Signs
 from ebac.hardware.tables import known, on_top, refusing, table
-from ebac.hardware.world_place import never_reached
 from ebac.hardware.zero import Zero
 from ebac.laws import LAWS, design
 from ebac.realtime.mode import MODES
-from ebac.scenario import Environment, Scenario
+from ebac.scenario import Environment
 
 if TYPE_CHECKING:
     from ebac.sensor import SensorConfig
@@ -96,27 +96,8 @@ def read(source: Source) -> dict[str, Any]:
     values["observer"] = _observer(source, values)
     values["hand"] = _hand(source)
     values["simulated_bus"] = _simulated_bus(source, values)
-    _fit(source, values)
+    check_fit(source, values)
     return values
-
-
-def _maybe_scenario(source: Source) -> str:
-    """Return a hint where nothing but the parts of a scenario is there; "" otherwise."""
-    if kind_of(source.table) != SCENARIO:
-        return ""
-    return (
-        ". It has no table of a configuration of `ebac run`, such as [bus]: if it is a scenario or a device, `ebac "
-        "wall --scenario` takes it, and `ebac demo joystick` writes a configuration for its tables"
-    )
-
-
-def _without_a_bus(source: Source) -> str:
-    """Return a hint where the drives are those that no [bus] names."""
-    if "bus" in source.table:
-        return ""
-    return ". The file has no [bus], so its drives are the built-in joystick's" + _maybe_scenario(
-        source
-    )
 
 
 def _bus(source: Source) -> dict[str, Any]:
@@ -282,47 +263,3 @@ def _realtime(source: Source) -> dict[str, Any]:
         "mode": word(source, ("realtime", "mode"), found.get("mode", "auto"), MODES),
         "realtime": on_top(source, ("realtime",), RealTime(), apart=("mode",)),
     }
-
-
-#: Values that profile and device must agree on: key of the profile, value of the device, its name.
-_SAME: tuple[tuple[str, Callable[[Device], float], str], ...] = (
-    ("motor.torque_constant", lambda d: d.motor.torque_constant, "motor.torque_constant"),
-    ("limits.rated_torque", lambda d: d.motor.rated_torque, "motor.rated_torque"),
-    ("motor.counts_per_turn", lambda d: d.encoder.counts_per_turn, "encoder.counts_per_turn"),
-)
-
-
-def _fit(source: Source, values: Mapping[str, Any]) -> None:
-    """Refuse what does not fit together."""
-    axes, drives = values["device"].axes, values["drives"]
-    if len(drives.nodes) != axes:
-        raise source.refuse(
-            ("bus", "drives"),
-            f"bus.drives: {drives.name} has {len(drives.nodes)} drives, the device {axes} axes: must "
-            "be as many; give another network file, or a device with as many axes"
-            + _maybe_scenario(source),
-        )
-    for node in drives.nodes:
-        for key, mine, name in _SAME:
-            theirs, own = node.profile.values.get(key), mine(values["device"])
-            if theirs is not None and abs(float(theirs) - own) > 0.01 * own:
-                what = "position" if name.startswith("encoder.") else "force"
-                raise source.refuse(
-                    ("bus", "drives"),
-                    f"bus.drives: node {node.id} of {drives.name} has {key} = {float(theirs):g}, the device "
-                    f"{name} = {own:g}: must be the same within 1 %, or every {what} is wrong; set one of them"
-                    + _without_a_bus(source),
-                )
-    refusing(
-        source,
-        ("environment",),
-        lambda: Scenario(
-            device=values["device"],
-            environment=values["environment"],
-            hand=values["hand"],
-            timing=values["timing"],
-        ).setup(),
-    )
-    beyond = never_reached(values["device"], values["limits"], values["environment"])
-    if beyond is not None:
-        raise source.refuse(*beyond)
