@@ -12,6 +12,7 @@ from typer.testing import CliRunner
 import ebac
 from ebac import worst
 from ebac.cli import app
+from ebac.plot import plot_worst
 from ebac.studies.families import Family, families
 from ebac.studies.slower_hands import PER_TICK, no_quicker
 
@@ -74,6 +75,8 @@ def test_the_command_names_the_rate() -> None:
     assert document["allowed_pull_rate_N_per_s"] == 1000.0
     shown = " ".join(CliRunner().invoke(app, [*words, "--no-files"]).stdout.split())
     assert "The own force of each hand changes by 1000 N/s at most." in shown
+    slow = worst(family=["impact"], evaluations=40, pull_rate=1e3)
+    assert "own force at most 1000 N/s" in plot_worst(slow).get_suptitle()
     refused = CliRunner().invoke(app, [*words[:-1], "0"])
     assert refused.exit_code == 2
     assert "--pull-rate = 0 N/s: must lie in [1, 1e+09] N/s" in " ".join(refused.output.split())

@@ -74,6 +74,9 @@ def _title(found: Worst, hand: WorstHand) -> str:
     )
     device, _, wall, timing, *_ = formatting.describe(hand.scenario).split("; ")
     world = f"{device}; {wall}; {timing}"
+    quick = found.pull_rate
+    if quick is not None:
+        values += f"; own force at most {formatting.quantity(quick, 'N/s')}"
     return (
         f"law {found.law}, {found.condition.name}, simulated: {world}\nthe worst hand of the family "
         f"{hand.family.name} draws {formatting.quantity(hand.energy_J, 'J')}{reserve}\n{values}"
