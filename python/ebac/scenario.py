@@ -24,9 +24,10 @@ from ebac._core import (
 )
 from ebac._util.arguments import keywords_only, refuse_unknown, require, require_path, shown
 from ebac._util.copying import refuse_uncopyable
+from ebac._util.misplaced import Misplaced, misplaced
 from ebac._util.serialisation import SHAPES
 from ebac._util.text_file import read_text
-from ebac._util.toml_lines import located
+from ebac._util.toml_lines import placed
 from ebac.hands import as_hand, is_own
 from ebac.scenario_text import parts_of, text_of
 
@@ -223,10 +224,11 @@ class Scenario:
             For a number out of range, an unknown name or a syntax error; the message names the place.
         """
         require(text, str, "Scenario.from_toml", "text")
+        parts = parts_of(text, cls, None if folder is None else Path(folder))
         try:
-            return cls(**parts_of(text, cls, None if folder is None else Path(folder)))
-        except TypeError as error:
-            raise ValueError(str(error)) from None
+            return cls(**parts)
+        except (ValueError, TypeError) as error:
+            raise misplaced((), parts, error) from None
 
     def save(self, path: str | Path) -> None:
         """Write the scenario to a TOML file. The file of a mesh below its folder is named from there."""
@@ -249,7 +251,8 @@ class Scenario:
             text = read_text(path)
             return cls.from_toml(text, folder=Path(path).parent)
         except ValueError as error:
-            raise ValueError(located(path, text, str(error))) from None
+            where = error.path if isinstance(error, Misplaced) else ()
+            raise ValueError(placed(path, text, where, str(error))) from None
 
     def designed_observer(self) -> Observer | None:
         """Return the observer of a run, or None without one."""

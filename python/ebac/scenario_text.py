@@ -87,21 +87,10 @@ def parts_of(text: str, kind: type[Scenario], folder: Path | None) -> dict[str, 
         )
     if folder is not None:
         table = seen_from_here(table, folder)
-    started = {name: _on_its_preset(name, make, table) for name, make in _PRESETS.items()}
-    rest = {name: item for name, item in table.items() if started.get(name) is None}
-    read = serialisation.read_table(rest, dataclasses.fields(kind), "scenario")
-    return read | {name: made for name, made in started.items() if made is not None}
-
-
-def _on_its_preset(name: str, make: Callable[[str], Any], table: Mapping[str, Any]) -> Any:
-    """Return the device or hand of a table on top of the one that it names; None where it names none."""
-    given = table.get(name)
-    if not isinstance(given, Mapping) or "preset" not in given:
-        return None
-    where = f"scenario.{name}"
-    try:
-        base = make(str(given["preset"]))
-    except KeyError as error:
-        raise ValueError(f"{where}.preset: {error.args[0]}") from None
-    parts = {key: item for key, item in given.items() if key != "preset"}
-    return serialisation.on_top(base, parts, where)
+    started = {
+        name: serialisation.on_its_preset(make, given, (name,))
+        for name, make in _PRESETS.items()
+        if isinstance(given := table.get(name), Mapping) and "preset" in given
+    }
+    rest = {name: item for name, item in table.items() if name not in started}
+    return started | serialisation.read_table(rest, dataclasses.fields(kind), ())

@@ -162,7 +162,7 @@ def test_an_empty_one_is_the_paper_s_joystick() -> None:
         (
             "[environment]\ntype = 'Free'\nstiffness = 1e3\n",
             None,
-            "Free has no parameter 'stiffness'; it has none: leave it out",
+            "environment.stiffness: no such name in Free; it has none: leave it out",
         ),
     ],
 )

@@ -9,6 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from ebac import drives
+from ebac._util.toml_lines import line_of
 from ebac.drives.load import BITRATES
 from ebac.drives.objects import ENTRIES, find, known, mapped
 from ebac.drives.pdo import read_pdo
@@ -43,25 +44,23 @@ def test_a_key_stands_where_it_was_written(table: dict[str, Any], blank: int) ->
     import tomli_w
 
     text = "# a comment\n" * blank + tomli_w.dumps(table, multiline_strings=True)
-    source = Source(name="a.toml", text=text)
     for name, value in table.items():
-        line = source.line((name,))
+        line = line_of(text, (name,))
         assert line is not None
         said = text.split("\n")[line - 1]
         assert re.match(rf"(\[+)?{name}\b", said), (name, said)
         if isinstance(value, dict):
             for inner in value:
-                at = source.line((name, inner))
+                at = line_of(text, (name, inner))
                 assert at is not None
                 assert inner in text.split("\n")[at - 1]
 
 
 def test_a_value_of_several_lines_stands_where_it_begins() -> None:
     text = '# one\na = [\n  1,\n  2,\n]\nb = """\nc = 1\n"""\n[t]\nc = { d = 1 }\n[[n]]\ne=1\n[[n]]\ne=2\n'
-    source = Source(name="a.toml", text=text)
     lines = {("a",): 2, ("a", 1): 2, ("b",): 6, ("t",): 9, ("t", "c", "d"): 10, ("n", 1, "e"): 14}
-    assert {path: source.line(path) for path in lines} == lines
-    assert source.line(("c",)) is None
+    assert {path: line_of(text, path) for path in lines} == lines
+    assert line_of(text, ("c",)) is None
 
 
 # --- messages ---

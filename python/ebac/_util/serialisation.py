@@ -5,13 +5,13 @@ A part that may be of several types carries its type's name under `type`.
 
 from __future__ import annotations
 
-import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from importlib import import_module
 from typing import Any
 
 from ebac import _core
-from ebac._util.arguments import unknown
+from ebac._util.arguments import ELSEWHERE, unknown
+from ebac._util.misplaced import Misplaced, Path, misplaced
 from ebac._util.signatures import refuse_names
 
 #: Solids of the core.
@@ -80,69 +80,101 @@ def to_document(value: Any) -> Any:
     return {"type": name, **table} if several else table
 
 
-def from_document(name: str, item: Any, where: str) -> Any:
+def from_document(name: str, item: Any, path: Path) -> Any:
     """Return the value of the core that `item` describes, where `name` gives what it may be.
 
     Raises
     ------
-    ValueError
-        For an unknown name or type or a number out of range; the message names the place.
+    Misplaced
+        For an unknown name or type or a number out of range.
     """
     if name not in CHOICES or isinstance(item, PLAIN.get(name, ())):
         return item
     if isinstance(item, list):
-        return tuple(from_document(name, one, f"{where}[{i}]") for i, one in enumerate(item))
+        return tuple(from_document(name, one, (*path, i)) for i, one in enumerate(item))
     if not isinstance(item, Mapping):
         without = (
             "; a device without a sensor has `fitted = false` in it" if name == "sensor" else ""
         )
-        raise ValueError(f"{where} = {item!r}: must be a table{without}")
-    return _build(_chosen(name, item, where), item, where)
+        raise Misplaced(path, f" = {item!r}: must be a table{without}")
+    return _build(_chosen(name, item, path), item, path)
 
 
-def on_top(base: Any, table: Mapping[str, Any], where: str) -> Any:
+def on_top(base: Any, table: Mapping[str, Any], path: Path, *, apart: Iterable[str] = ()) -> Any:
     """Return a value of the core with the parts that a table names on top of it.
+
+    Parameters
+    ----------
+    base : value of the core
+        What is not named keeps its value.
+    table : mapping
+        The table.
+    path : tuple of str or int
+        Where it stands.
+    apart : iterable of str
+        Keys of the table that mean something else.
 
     Raises
     ------
-    ValueError
-        For an unknown name or type or a number out of range; the message names the place.
+    Misplaced
+        For an unknown name or type or a number out of range.
     """
-    parts = base.as_dict()
-    refuse = next((name for name in table if name not in parts), None)
-    if refuse is not None:
-        raise ValueError(unknown(f"{where}.{refuse}", refuse, list(parts)))
+    parts, others = base.as_dict(), list(apart)
+    refuse_keys(table, [*parts, *others], path, type(base).__name__)
     changes = {}
     for name, item in table.items():
-        here, part = f"{where}.{name}", parts[name]
+        if name in others:
+            continue
+        here, part = (*path, name), parts[name]
         nested = isinstance(item, Mapping) and hasattr(part, "as_dict") and "type" not in item
         changes[name] = on_top(part, item, here) if nested else from_document(name, item, here)
     try:
         return base.replace(**changes)
     except (ValueError, TypeError) as error:
-        raise ValueError(f"{where}: {error}") from None
+        raise misplaced(path, table, error) from None
 
 
-def read_table(table: Mapping[str, Any], fields: Iterable[Any], where: str) -> dict[str, Any]:
+def on_its_preset(make: Callable[[str], Any], table: Mapping[str, Any], path: Path) -> Any:
+    """Return what `make` returns for the table's `preset`, with the rest of the table on top of it.
+
+    Raises
+    ------
+    Misplaced
+        For an unknown preset or name or a number out of range.
+    """
+    try:
+        base = make(str(table["preset"]))
+    except KeyError as error:
+        raise Misplaced((*path, "preset"), f": {error.args[0]}") from None
+    return on_top(base, table, path, apart=["preset"])
+
+
+def read_table(table: Mapping[str, Any], fields: Iterable[Any], path: Path) -> dict[str, Any]:
     """Return the keyword arguments of a dataclass with these `fields` from a table.
 
     Raises
     ------
-    ValueError
+    Misplaced
         For an unknown name; the message suggests the nearest.
     """
-    known = [f.name for f in fields]
+    refuse_keys(table, [f.name for f in fields], path)
+    return {name: from_document(name, item, (*path, name)) for name, item in table.items()}
+
+
+def refuse_keys(table: Mapping[str, Any], known: Sequence[str], path: Path, kind: str = "") -> None:
+    """Raise Misplaced for a key that is not known; `kind` is the class that takes them."""
     for name in table:
         if name not in known:
-            raise ValueError(unknown(f"{where}.{name}", name, known))
-    return {name: from_document(name, item, f"{where}.{name}") for name, item in table.items()}
+            better = ELSEWHERE.get((kind, name))
+            what = f": {better}" if better else unknown("", name, known)
+            raise Misplaced((*path, name), what)
 
 
-def _chosen(name: str, table: Mapping[str, Any], where: str) -> type:
+def _chosen(name: str, table: Mapping[str, Any], path: Path) -> type:
     types = {_name_of(kind): kind for kind in CHOICES[name]}
     wanted = table.get("type", next(iter(types)))
     if not isinstance(wanted, str) or wanted not in types:
-        raise ValueError(unknown(f"{where}.type = {wanted!r}", str(wanted), types))
+        raise Misplaced((*path, "type"), unknown(f" = {wanted!r}", str(wanted), types))
     kind = types[wanted]
     return _imported(kind) if isinstance(kind, str) else kind
 
@@ -157,16 +189,13 @@ def _imported(path: str) -> type:
     return kind
 
 
-def _build(cls: type, table: Mapping[str, Any], where: str) -> Any:
+def _build(cls: type, table: Mapping[str, Any], path: Path) -> Any:
     own = {name: item for name, item in table.items() if name != "type"}
     made: Any = getattr(cls, "from_table", cls)
     try:
         refuse_names(cls.__name__, made, own)
-        given = {name: from_document(name, item, f"{where}.{name}") for name, item in own.items()}
-    except TypeError as error:
-        raise ValueError(f"{where}: {error}") from None
-    try:
-        return made(**given)
+        return made(
+            **{name: from_document(name, item, (*path, name)) for name, item in own.items()}
+        )
     except (ValueError, TypeError) as error:
-        said = re.sub(": must be bool$", ": must be true or false", str(error))
-        raise ValueError(f"{where}: {said}") from None
+        raise misplaced(path, table, error) from None

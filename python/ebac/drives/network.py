@@ -218,9 +218,8 @@ def _nodes(source: Source) -> tuple[Node, ...]:
             )
         first, own = (int(one.profile.values["heartbeat.master"]) for one in (nodes[0], node))
         if own != first:
-            mine = ("node", i, "heartbeat", "master")
             raise source.refuse(
-                mine if source.line(mine) else ("node", i),
+                ("node", i, "heartbeat", "master"),
                 f"node[{i}]: heartbeat.master = {own}, that of node {nodes[0].id} is {first}: the loop sends one "
                 "heartbeat, and a drive that watches another is not stopped when the loop dies; give all the same",
             )

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from ebac._core import Limits
-from ebac._util.toml_lines import line_of
+from ebac._util.toml_lines import placed
 from ebac.hardware.tables import ConfigurationError
 
 if TYPE_CHECKING:
@@ -54,8 +54,6 @@ def beyond_rating(known: Configuration) -> list[tuple[str, str]]:
     ):  # fmt: skip
         asked, most = float(getattr(known.limits, name)), float(getattr(rated, name))
         if asked > most * (1 + share):
-            line = line_of(known.text, ("limits", name))
-            where = known.name if line is None else f"{known.name}, line {line}"
             text = f"limits.{name} = {asked:g} {unit}: is beyond the {what}, {most:.4g} {unit}"
-            found.append((name, f"{where}: {text}"))
+            found.append((name, placed(known.name, known.text, ("limits", name), text)))
     return found

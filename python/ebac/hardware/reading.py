@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ebac import presets
-from ebac._core import BridgeParams, Device, Hand, Limits, Observer, RealTime, TimedBus, Timing
+from ebac._core import BridgeParams, Device, Limits, Observer, RealTime, TimedBus, Timing
 from ebac._util.file_kinds import PROFILE, kind_of
 from ebac._util.mesh_paths import seen_from_here
 from ebac._util.serialisation import from_document
@@ -17,7 +17,7 @@ from ebac.drives.toml_positions import Source
 from ebac.hardware.configuration_fields import BUS, RECORDING, RUN, number, word
 from ebac.hardware.fit import check_fit
 from ebac.hardware.signs import Signs
-from ebac.hardware.tables import known, on_top, refusing, table
+from ebac.hardware.tables import known, on_its_preset, on_top, refusing, table
 from ebac.hardware.zero import Zero
 from ebac.laws import LAWS, design
 from ebac.realtime.mode import MODES
@@ -76,7 +76,7 @@ def read(source: Source) -> dict[str, Any]:
     known(source, (), TABLES)
     values: dict[str, Any] = {"name": source.name, "text": source.text}
     values |= _bus(source)
-    values["device"] = _device(source)
+    values["device"] = on_its_preset(source, ("device",), presets.device, "joystick")
     axes = values["device"].axes
     values["signs"] = _signs(source, ("signs",), axes) or Signs()
     values["simulated_signs"] = _signs(source, ("simulated", "signs"), axes)
@@ -94,7 +94,8 @@ def read(source: Source) -> dict[str, Any]:
     values |= {key.name: number(source, ("recording",), key) for key in RECORDING}
     values["sensor"] = _sensor(source)
     values["observer"] = _observer(source, values)
-    values["hand"] = _hand(source)
+    known(source, ("simulated",), ["hand", "signs", "zero", "bus"])
+    values["hand"] = on_its_preset(source, ("simulated", "hand"), presets.hand, "reference")
     values["simulated_bus"] = _simulated_bus(source, values)
     check_fit(source, values)
     return values
@@ -122,13 +123,6 @@ def _bus(source: Source) -> dict[str, Any]:
     }
 
 
-def _device(source: Source) -> Device:
-    name = table(source, ("device",)).get("preset", "joystick")
-    base = refusing(source, ("device", "preset"), lambda: presets.device(name))
-    made: Device = on_top(source, ("device",), base, apart=("preset",))
-    return made
-
-
 def _signs(source: Source, path: tuple[str, ...], axes: int) -> Signs | None:
     """Return the signs of motors and encoders of a table; None where there is none."""
     found = known(source, path, ["motor", "encoder"])
@@ -144,15 +138,6 @@ def _zero(source: Source, path: tuple[str, ...], keys: list[str], axes: int) -> 
     if not found:
         return None
     made: Zero = refusing(source, path, lambda: Zero.from_table(found, axes))
-    return made
-
-
-def _hand(source: Source) -> Hand:
-    known(source, ("simulated",), ["hand", "signs", "zero", "bus"])
-    path = ("simulated", "hand")
-    name = table(source, path).get("preset", "reference")
-    base = refusing(source, (*path, "preset"), lambda: presets.hand(name))
-    made: Hand = on_top(source, path, base, apart=("preset",))
     return made
 
 
@@ -201,7 +186,7 @@ def _observer(source: Source, values: Mapping[str, Any]) -> Observer | bool:
 def _environment(source: Source) -> Environment:
     found = seen_from_here(table(source, ("environment",)), Path(source.name).parent)
     made: Environment = refusing(
-        source, ("environment",), lambda: from_document("environment", found, "environment")
+        source, ("environment",), lambda: from_document("environment", found, ("environment",))
     )
     return made
 

@@ -2,19 +2,14 @@
 
 from __future__ import annotations
 
-import re
-from collections.abc import Mapping
-from typing import Any, TypeVar
+from collections.abc import Callable, Mapping
+from typing import Any
 
 from ebac._util import serialisation
-from ebac._util.arguments import ELSEWHERE, unknown
+from ebac._util.misplaced import Misplaced, misplaced
 from ebac.drives.errors import ProfileError
 from ebac.drives.toml_positions import Path, Source, dotted
 
-Value = TypeVar("Value")
-
-#: "Wall.stiffness = -3 N/m: ...", where the core names what is out of range.
-_NAMED = re.compile(r"\b[A-Za-z]\w*\.([a-z]\w*)(?: = |:)")
 #: Where the number of a device stands that a law is designed for.
 _CAUSES: dict[str, Path] = {"ForceSensor.noise": ("device", "sensor", "noise")}
 
@@ -51,52 +46,32 @@ def known(source: Source, path: Path, names: list[str], kind: str = "") -> Mappi
         For a key nobody knows; the message suggests the nearest.
     """
     found = table(source, path)
-    for name in found:
-        if name not in names:
-            here = dotted((*path, name))
-            better = ELSEWHERE.get((kind, name))
-            wrong = unknown(here, name, names) if better is None else f"{here}: {better}"
-            raise source.refuse((*path, name), wrong)
+    refusing(source, path, lambda: serialisation.refuse_keys(found, names, path, kind))
     return found
 
 
-def on_top(source: Source, path: Path, base: Value, *, apart: tuple[str, ...] = ()) -> Value:
-    """Return a value of the core with the table at `path` on top of it.
-
-    Parameters
-    ----------
-    source : Source
-        The document.
-    path : tuple
-        Where the table stands.
-    base : value of the core
-        What is not named keeps its value.
-    apart : tuple of str
-        Keys of the table that mean something else.
+def on_top(source: Source, path: Path, base: Any, *, apart: tuple[str, ...] = ()) -> Any:
+    """Return a value of the core with the table at `path` on top of it; keys `apart` mean something else.
 
     Raises
     ------
     ProfileError
         For what cannot be.
     """
-    given: Any = base
-    names = [*given.as_dict(), *apart]
-    changes: dict[str, Any] = {}
-    for name, item in known(source, path, names).items():
-        if name in apart:
-            continue
-        here = (*path, name)
-        part = given.as_dict()[name]
-        nested = isinstance(item, Mapping) and hasattr(part, "as_dict") and "type" not in item
-        if nested:
-            changes[name] = on_top(source, here, part)
-        else:
-            changes[name] = _made(source, here, name, item)
-    return refusing(source, path, lambda: given.replace(**changes))  # type: ignore[no-any-return]
+    found = table(source, path)
+    return refusing(source, path, lambda: serialisation.on_top(base, found, path, apart=apart))
 
 
-def _made(source: Source, path: Path, name: str, item: Any) -> Any:
-    return refusing(source, path, lambda: serialisation.from_document(name, item, dotted(path)))
+def on_its_preset(source: Source, path: Path, make: Callable[[str], Any], usual: str) -> Any:
+    """Return a device or hand with the table at `path` on top of the one that its `preset` names, `usual` without.
+
+    Raises
+    ------
+    ProfileError
+        For what cannot be.
+    """
+    found = {"preset": usual, **table(source, path)}
+    return refusing(source, path, lambda: serialisation.on_its_preset(make, found, path))
 
 
 def refusing(source: Source, path: Path, make: Any) -> Any:
@@ -114,15 +89,13 @@ def refusing(source: Source, path: Path, make: Any) -> Any:
         for name, cause in _CAUSES.items():
             if message.startswith(f"{name} "):
                 raise source.refuse(cause, dotted(cause) + message.removeprefix(name)) from None
-        names = _NAMED.findall(message)
-        at = (*path, names[-1]) if names and names[-1] in table(source, path) else path
-        if at != path:
-            message = re.sub(rf"^(?:[\w.\[\]]+: )?[A-Z]\w*\.{at[-1]}\b", dotted(at), message)
-        raise source.refuse(at, message + _remedy(at, message)) from None
+        wrong = misplaced(path, table(source, path), error)
+        raise source.refuse(wrong.path, str(wrong) + _remedy(wrong)) from None
 
 
-def _remedy(at: Path, message: str) -> str:
+def _remedy(wrong: Misplaced) -> str:
     """Return where to look up a number of the device that is out of range."""
-    if at[0] != "device" or "must lie in" not in message or ";" in message:
+    said = str(wrong)
+    if wrong.path[0] != "device" or "must lie in" not in said or ";" in said:
         return ""
     return "; the page Describe your device says where it stands in a data sheet, and how to convert it"

@@ -108,17 +108,22 @@ class SensorConfig:
         return dataclasses.replace(self, **changes)
 
     @classmethod
-    def from_table(cls, table: Mapping[str, Any], where: str = "sensor") -> Self:
+    def from_table(cls, table: Mapping[str, Any]) -> Self:
         """Return the sensor that a table of TOML describes; what is not named keeps its default.
 
         Raises
         ------
-        ValueError, TypeError
+        ValueError
             For an unknown name, a wrong type or a value out of range.
         """
+        from ebac._util.misplaced import misplaced
         from ebac._util.serialisation import read_table
 
-        return cls(**read_table(table, dataclasses.fields(cls), where))
+        path = ("sensor",)
+        try:
+            return cls(**read_table(table, dataclasses.fields(cls), path))
+        except (ValueError, TypeError) as error:
+            raise misplaced(path, table, error) from None
 
     def check_scale(self, *, timeout: float = 1.0) -> None:
         """Compare the counts with those on the sensor's own page; nothing where `http_port` is 0.
