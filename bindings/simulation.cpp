@@ -66,6 +66,24 @@ void append_row(Trace& trace, const Bytes& row) {
   trace.commit();
 }
 
+/// How the rows of a trace are laid out, without the rows: what Python makes of it is kept for the
+/// next run of the same layout.
+struct Layout {
+  std::vector<Column> columns;
+  std::size_t row_bytes;
+  int axes;
+
+  bool operator==(const Layout&) const = default;
+
+  std::size_t hash() const {
+    std::size_t all = row_bytes + static_cast<std::size_t>(axes);
+    for (const Column& c : columns) all = all * 31 + std::hash<std::string>{}(c.name) + c.offset;
+    return all;
+  }
+};
+
+Layout layout_of(const Trace& trace) { return {trace.columns(), trace.row_bytes(), trace.axes()}; }
+
 void bind_trace(py::module_& m) {
   py::class_<Column>(m, "Column", "Position of a named quantity in a row.")
       .def_readonly("name", &Column::name, "Name.")
@@ -74,6 +92,12 @@ void bind_trace(py::module_& m) {
       .def_readonly("kind", &Column::kind, "f double, i int64, w int32, u uint32, b bool.")
       .def_readonly("offset", &Column::offset, "Bytes from the start of the row to the first axis.")
       .def_readonly("stride", &Column::stride, "Bytes from axis to axis; 0 for one value per row.");
+  py::class_<Layout>(m, "RowLayout", "How rows are laid out; hashable, equal to that of like rows.")
+      .def_readonly("columns", &Layout::columns, "Columns in their order.")
+      .def_readonly("row_bytes", &Layout::row_bytes, "Bytes per row.")
+      .def_readonly("axes", &Layout::axes, "Number of axes.")
+      .def("__hash__", &Layout::hash)
+      .def("__eq__", [](const Layout& a, const Layout& b) { return a == b; });
   py::class_<Trace, std::shared_ptr<Trace>>(m, "Rows", "The rows of a run, as written by the loop.")
       .def("__len__", [](const Trace& trace) { return trace.size() - trace.first(); })
       .def_property_readonly("count", &Trace::size, "Rows appended since the start.")
@@ -84,7 +108,7 @@ void bind_trace(py::module_& m) {
           "Whether this is a ring, which keeps the last rows and never fills up.")
       .def_property_readonly("axes", &Trace::axes, "Number of axes.")
       .def_property_readonly("row_bytes", &Trace::row_bytes, "Bytes per row.")
-      .def_property_readonly("columns", &Trace::columns, "Columns in their order.")
+      .def_property_readonly("layout", &layout_of, "How the rows are laid out.")
       .def("bytes", &bytes_of,
            "Return all rows in memory, read-only; a ring returns a copy, others a view.")
       .def("copy", &copy_of, py::arg("start"), py::arg("stop"),

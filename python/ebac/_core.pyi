@@ -3546,6 +3546,28 @@ class Column:
         SI unit; '1' for a pure number.
         """
 
+class RowLayout:
+    """
+    How rows are laid out; hashable, equal to that of like rows.
+    """
+    def __eq__(self, arg0: object) -> bool: ...
+    def __hash__(self) -> int: ...
+    @property
+    def axes(self) -> int:
+        """
+        Number of axes.
+        """
+    @property
+    def columns(self) -> list[Column]:
+        """
+        Columns in their order.
+        """
+    @property
+    def row_bytes(self) -> int:
+        """
+        Bytes per row.
+        """
+
 class Rows:
     """
     The rows of a run, as written by the loop.
@@ -3592,11 +3614,6 @@ class Rows:
         Largest number of rows.
         """
     @property
-    def columns(self) -> list[Column]:
-        """
-        Columns in their order.
-        """
-    @property
     def count(self) -> int:
         """
         Rows appended since the start.
@@ -3605,6 +3622,11 @@ class Rows:
     def first(self) -> int:
         """
         Number of the first row still in memory.
+        """
+    @property
+    def layout(self) -> RowLayout:
+        """
+        How the rows are laid out.
         """
     @property
     def ring(self) -> bool:

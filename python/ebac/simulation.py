@@ -13,7 +13,7 @@ from ebac._util.arguments import require
 from ebac._util.fault_remedies import REMEDIES
 from ebac._util.foreign_worlds import foreign
 from ebac._util.kept_law import KeptLaw, law_error
-from ebac.laws import AnyLaw, CoreLaw, PythonLaw, design, law_name
+from ebac.laws import AnyLaw, CoreLaw, PythonLaw, design, is_core_law, law_name
 from ebac.scenario import Scenario
 from ebac.trace import Trace
 from ebac.tuned_laws import on_its_observer
@@ -169,7 +169,7 @@ def simulate(
         setup = _core._with_loop(setup, soft_start=soft_start, limits=allowed)
     _check_observer(finished, scenario)
     errors: list[BaseException] = []
-    if isinstance(finished, CoreLaw):
+    if is_core_law(finished):
         rows = finished._simulate(setup, through is not None, bus)
     else:
         kept = KeptLaw(finished, errors)
@@ -191,7 +191,7 @@ def simulate(
 
 def _check_observer(law: CoreLaw | PythonLaw, scenario: Scenario) -> None:
     """Refuse a law in Python that goes by an estimate which nothing makes."""
-    if isinstance(law, CoreLaw) or scenario.observer or not getattr(law, "observer", False):
+    if is_core_law(law) or scenario.observer or not getattr(law, "observer", False):
         return
     name = law_name(law)
     raise ValueError(

@@ -21,6 +21,8 @@ struct Column {
   char kind;           // 'f' double, 'i' int64, 'w' int32, 'u' uint32, 'b' bool
   std::size_t offset;  // bytes, of the first axis
   std::size_t stride;  // bytes from axis to axis; 0 for a column of the whole row
+
+  bool operator==(const Column&) const = default;
 };
 
 /// The rows of a run, preallocated. A row is the used prefix of a Sample, then the law's state of

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from ebac import _core
 from ebac._core import Device, Free, Hand, Master, Patient, Physician, Polyp, Scope, Step
 from ebac.gastroscope.lumen import Lumen
-from ebac.laws import AnyLaw, CoreLaw, design, law_name
+from ebac.laws import AnyLaw, CoreLaw, design, is_core_law, law_name
 from ebac.presets import DEVICES
 from ebac.scenario import Scenario
 from ebac.tuned_laws import on_its_observer
@@ -217,7 +217,7 @@ def core_law(law: AnyLaw, scenario: Scenario) -> CoreLaw:
         For a law that is written in Python.
     """
     made = design(law, scenario.device, scenario.timing)
-    if not isinstance(made, CoreLaw):
+    if not is_core_law(made):
         raise TypeError(f"law = {law!r}: a gastroscopy takes the laws of the core, see ebac laws")
     return made
 

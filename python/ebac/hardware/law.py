@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from ebac._core import Device, Timing
-from ebac.laws import LAWS, AnyLaw, CoreLaw, design
+from ebac.laws import LAWS, AnyLaw, CoreLaw, design, is_core_law
 
 
 def designed(
@@ -35,7 +35,7 @@ def designed(
         When a gain of the force loop is requested without a force sensor.
     """
     made = design(law, device if sensor else device.replace(sensor=None), timing, **changes)
-    if not isinstance(made, CoreLaw):
+    if not is_core_law(made):
         raise TypeError(
             f"{law!r} is written in Python: the loop's thread never touches Python, so only a law of "
             f"the core runs on hardware: {', '.join(LAWS)}"

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from ebac import _core
 from ebac._util.arguments import require
 from ebac._util.kept_law import KeptLaw, law_error
-from ebac.laws import AnyLaw, CoreLaw, design, law_name
+from ebac.laws import AnyLaw, design, is_core_law, law_name
 from ebac.logs.log import Log
 from ebac.logs.sensor_rows import force_age, force_status
 from ebac.tuned_laws import on_its_observer
@@ -93,7 +93,7 @@ def replay(
     source.observer = scenario.designed_observer()
     finished = design(law, scenario.device, scenario.known_timing, **changes)
     errors: list[BaseException] = []
-    if isinstance(finished, CoreLaw):
+    if is_core_law(finished):
         rows = finished._replay(source, scenario.device, scenario.environment)
     else:
         kept = KeptLaw(finished, errors)

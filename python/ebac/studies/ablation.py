@@ -10,7 +10,7 @@ from textwrap import shorten
 from typing import Any
 
 from ebac._core import Device, Timing
-from ebac.laws import AnyLaw, CoreLaw, changed, design, law_name, shown_value
+from ebac.laws import AnyLaw, changed, design, is_core_law, law_name, shown_value
 from ebac.operators import Operators
 from ebac.studies.measures import MEASURES, Measure, conditions_of
 from ebac.studies.result import Study
@@ -205,7 +205,7 @@ def pieces(law: AnyLaw, changes: Sequence[Mapping[str, Any]] = ()) -> list[Piece
             f"{law_name(made)} has no boolean parameter and none of {', '.join(GAINS)}: "
             "nothing can be taken away; name a change"
         )
-    known = {f.name: f.meaning for f in made.fields()} if isinstance(made, CoreLaw) else {}
+    known = {f.name: f.meaning for f in made.fields()} if is_core_law(made) else {}
     return [
         Piece(name=", ".join(one), meaning="; ".join(known.get(n, n) for n in one), changes=one)
         for one in every
@@ -267,7 +267,7 @@ def _row_name(law: str, piece: Piece) -> str:
 
 
 def _parameters(law: Any) -> dict[str, Any]:
-    if isinstance(law, CoreLaw):
+    if is_core_law(law):
         return {field.name: getattr(law, field.name) for field in law.fields()}
     if dataclasses.is_dataclass(law):
         return {field.name: getattr(law, field.name) for field in dataclasses.fields(law)}

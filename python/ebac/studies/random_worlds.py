@@ -14,7 +14,7 @@ import numpy as np
 from ebac._util.arguments import named, require, several, whole
 from ebac._util.cores import thread_count
 from ebac._util.progress import Progress
-from ebac.laws import AnyLaw, CoreLaw, PythonLaw, design, reserve_of
+from ebac.laws import AnyLaw, CoreLaw, PythonLaw, design, is_core_law, reserve_of
 from ebac.metrics.energy_drawn import drawn
 from ebac.scenario import Scenario
 from ebac.studies.hand_search import every_row
@@ -118,7 +118,7 @@ def random_worlds(
         for cell, make, first, ready in zip(cells, makers, firsts, made, strict=True):
             for name, law in ready.items():
                 measured = partial(_measured, make, law, chosen[name])
-                spread = executor.map if isinstance(law, CoreLaw) else map
+                spread = executor.map if is_core_law(law) else map
                 runs: list[HandRun] = []
                 for run in spread(measured, range(hands)):
                     runs.append(run)

@@ -8,7 +8,7 @@ from typing import Any
 from ebac import _core
 from ebac._core import Link, SlaveModel
 from ebac._util.reach import check_reach
-from ebac.laws import CoreLaw, PythonLaw
+from ebac.laws import CoreLaw, PythonLaw, is_core_law
 from ebac.scenario import Scenario
 from ebac.teleop.schemes import Scheme
 
@@ -80,7 +80,7 @@ class Master(_Side):
         peer: tuple[str, int],
         consent_after: float | None = None,
     ) -> None:
-        if not isinstance(law, CoreLaw):
+        if not is_core_law(law):
             raise TypeError(f"law = {law!r}: must be a law of the core, not one written in Python")
         check_reach(host, peer[0], "the slave")
         self._core = _core._UdpMaster(

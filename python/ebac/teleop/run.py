@@ -12,7 +12,7 @@ import numpy.typing as npt
 from ebac import _core
 from ebac._core import STILL_SWING, TAIL_SHARE, Free, Hand, Link, MinimumJerk, SlaveModel
 from ebac._util.arguments import number, require, shown, unknown_name, whole
-from ebac.laws import AnyLaw, CoreLaw, design, law_name
+from ebac.laws import AnyLaw, design, is_core_law, law_name
 from ebac.scenario import Scenario
 from ebac.teleop import run_text
 from ebac.teleop.schemes import Scheme, chosen_scheme
@@ -219,7 +219,7 @@ def simulate(
     full = given.replace(environment=Free(), hand=path, seconds=seconds, seed=seed)
     setup = on_its_observer(full, law or chosen.law).setup()
     made = design(law or chosen.law, given.device, given.known_timing)
-    if not isinstance(made, CoreLaw):
+    if not is_core_law(made):
         raise TypeError(f"law = {made!r}: must be a law of the core, not one written in Python")
     to_slave = there or Link()
     to_master = back or to_slave

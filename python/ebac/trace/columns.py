@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -33,22 +34,59 @@ class ColumnInfo:
 
 def row_views(rows: _core.Rows, raw: NDArray[np.uint8]) -> dict[str, NDArray[Any]]:
     """Return the columns of whole rows as read-only views of their bytes."""
+    layout = _known(rows.layout)
     count = len(raw) // rows.row_bytes
-    data = {}
-    for c in rows.columns:
-        shape: tuple[int, ...] = (count,)
-        strides: tuple[int, ...] = (rows.row_bytes,)
-        if c.stride > 0 and rows.axes > 1:
-            shape, strides = (*shape, rows.axes), (*strides, c.stride)
+    views: dict[str, NDArray[Any]] = {}
+    for block in layout.blocks:
+        shape, strides = (count, *block.shape), (rows.row_bytes, *block.strides)
         if count:
-            view = np.ndarray(shape, _KINDS[c.kind], raw, c.offset, strides)
+            all_of_block = np.ndarray(shape, block.dtype, raw, block.offset, strides)
         else:
-            view = np.empty(shape, _KINDS[c.kind])
-        view.setflags(write=False)
-        data[c.name] = view
-    return data
+            all_of_block = np.empty(shape, block.dtype)
+        all_of_block.setflags(write=False)
+        for name in block.dtype.names or ():
+            views[name] = all_of_block[name]
+    return {name: views[name] for name in layout.infos}
 
 
 def column_infos(rows: _core.Rows) -> dict[str, ColumnInfo]:
     """Return unit and meaning of every column of rows."""
-    return {c.name: ColumnInfo(name=c.name, unit=c.unit, meaning=c.meaning) for c in rows.columns}
+    return dict(_known(rows.layout).infos)
+
+
+@dataclass(frozen=True, kw_only=True)
+class _Block:
+    """Columns at one distance from axis to axis: a structured type, and where the first of them begins."""
+
+    dtype: np.dtype[np.void]
+    offset: int
+    shape: tuple[int, ...]
+    strides: tuple[int, ...]
+
+
+@dataclass(frozen=True, kw_only=True)
+class _Layout:
+    """What follows from the layout of rows."""
+
+    infos: dict[str, ColumnInfo]
+    blocks: list[_Block]
+
+
+@lru_cache(maxsize=64)
+def _known(layout: _core.RowLayout) -> _Layout:
+    columns = list(layout.columns)
+    infos = {c.name: ColumnInfo(name=c.name, unit=c.unit, meaning=c.meaning) for c in columns}
+    blocks = []
+    for stride in sorted({c.stride for c in columns}):
+        own = [c for c in columns if c.stride == stride]
+        kinds = [np.dtype(_KINDS[c.kind]) for c in own]
+        begin = min(c.offset for c in own)
+        dtype = np.dtype({
+            "names": [c.name for c in own],
+            "formats": kinds,
+            "offsets": [c.offset - begin for c in own],
+        })  # fmt: skip
+        several = stride > 0 and layout.axes > 1
+        shape, strides = ((layout.axes,), (stride,)) if several else ((), ())
+        blocks.append(_Block(dtype=dtype, offset=begin, shape=shape, strides=strides))
+    return _Layout(infos=infos, blocks=blocks)

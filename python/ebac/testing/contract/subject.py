@@ -11,7 +11,7 @@ import numpy as np
 
 from ebac._core import Device, DeviceFacts, Port, Timing
 from ebac._util.arguments import unknown_name
-from ebac.laws import LAWS, CoreLaw, PythonLaw, Variant, checked, design, law_name
+from ebac.laws import LAWS, CoreLaw, PythonLaw, Variant, checked, design, is_core_law, law_name
 
 if TYPE_CHECKING:
     from ebac.testing.contract import LawContract
@@ -76,7 +76,7 @@ class Subject:
 def _made(given: Any, device: Device | DeviceFacts, timing: Timing) -> Any:
     if isinstance(given, Variant) or (isinstance(given, type) and hasattr(given, "_simulate")):
         return design(given, device, timing)
-    if isinstance(given, CoreLaw):
+    if is_core_law(given):
         return given.replace(timing=timing)
     if isinstance(given, type) and hasattr(given, "design"):
         facts = device.facts if isinstance(device, Device) else device
