@@ -439,7 +439,7 @@ def test_a_log_that_exists_is_not_written_over(trace: ebac.Trace, tmp_path: Path
     ("names", "message"),
     [
         (["tick", "t", "a.b", "a_b"], "cannot be distinguished in a log"),
-        (["tick", "x"], "t and tick are missing"),
+        (["tick", "x"], "the columns t and tick are those"),
     ],
 )
 def test_columns_that_cannot_be_logged_are_refused(names: list[str], message: str) -> None:

@@ -10,6 +10,8 @@ from typing import Any
 import numpy as np
 import pytest
 import zstandard
+from hypothesis import given
+from hypothesis import strategies as st
 from mcap.reader import make_reader
 from mcap.records import Chunk
 from mcap.writer import CompressionType, Writer
@@ -21,6 +23,7 @@ from ebac.logs import About, Event, LogWriter, read
 from ebac.logs.layout import Layout
 from ebac.logs.records import MAGIC
 from ebac.logs.summary import described, record_bytes
+from ebac.logs.ticks import ticks_of
 
 runner = CliRunner()
 EVENTS = [Event(kind="note", message=f"note {i}", tick=10 * i, t=0.01 * i) for i in range(5)]
@@ -265,3 +268,58 @@ def test_chunks_that_unpack_to_much_are_unpacked_few_at_a_time(
     trace.save(tmp_path / "small.mcap")
     most, _ = peak(path, tmp_path / "small.mcap")
     assert most < 160e6  # of 3.4 GB
+
+
+# --- tables of other programs, without a column of ticks ---
+
+
+@pytest.fixture
+def table(tmp_path: Path) -> Path:
+    """100 rows at 997 Hz of which ten are lost, after the 40th."""
+    rows = [f"{i / 997:.6f},{i},{0.1 * i:.3f}" for i in range(110) if not 40 <= i < 50]
+    file = tmp_path / "mine.csv"
+    file.write_text("t [s],x [mm],force [N]\n" + "\n".join(rows) + "\n")
+    return file
+
+
+def test_rows_that_a_table_lacks_are_found_by_their_times(table: Path) -> None:
+    log = read(table)
+    (gap,) = log.gaps
+    assert (gap.rows, gap.after_tick, log.lost) == (10, 39, 10)
+    assert gap.t == pytest.approx(39 / 997, abs=1e-6)
+
+
+@pytest.mark.parametrize("kind", ["csv", "npz", "parquet", "mat", "h5", "mcap"])
+def test_a_table_can_be_exported_and_read_back(table: Path, kind: str) -> None:
+    out = table.with_name(f"out.{kind}")
+    assert runner.invoke(app, ["log", "export", str(table), str(out)]).exit_code == 0
+    told = runner.invoke(app, ["log", "info", str(out), "--json"])
+    assert told.exit_code == 0, told.output
+    given, again = ebac.load(table), ebac.load(out)
+    for name in ("t", "x", "force"):
+        np.testing.assert_array_equal(again[name], given[name])
+        assert again.columns[name].unit == given.columns[name].unit
+    assert read(out).lost == 10
+
+
+def test_ros_gets_the_rows_of_a_table(table: Path) -> None:
+    out = table.with_name("bag.mcap")
+    result = runner.invoke(app, ["log", "export", str(table), str(out), "--profile", "ros2"])
+    assert result.exit_code == 0, result.output
+
+
+def test_times_that_tell_no_step_leave_rows_their_places() -> None:
+    for t in ([], [3.0], [0.0, 0.0, 0.0], [0.0, 1.0, 0.5, 2.0]):
+        assert ticks_of(np.asarray(t, float)).tolist() == list(range(len(t)))
+
+
+@given(
+    steps=st.lists(st.integers(1, 3), min_size=3, max_size=60).filter(
+        lambda steps: steps.count(1) > len(steps) / 2
+    ),
+    seed=st.integers(0, 99),
+)
+def test_ticks_follow_from_jittered_times(steps: list[int], seed: int) -> None:
+    ticks = np.concatenate([[0], np.cumsum(steps)])
+    late = np.random.default_rng(seed).uniform(0, 1e-4, len(ticks))
+    assert ticks_of(1e-3 * ticks + late).tolist() == ticks.tolist()

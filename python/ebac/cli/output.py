@@ -20,6 +20,7 @@ from ebac.cli.tables import table as table
 
 if TYPE_CHECKING:
     from rich.console import Console
+    from rich.progress import Progress, ProgressColumn
 
 #: Exit codes: the input was bad; the work itself failed; it was done, but parts of the input are damaged.
 DAMAGED = 3
@@ -169,10 +170,10 @@ def progress(total: int, *, quiet: bool) -> Iterator[Callable[[str], None]]:
     if quiet:
         yield lambda step: None
         return
-    from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
+    from rich.progress import BarColumn, TextColumn, TimeElapsedColumn
 
     columns = (TextColumn("{task.description}"), BarColumn(), TimeElapsedColumn())
-    with Progress(*columns, console=console(stderr=True), transient=True) as bar:
+    with _bar(columns) as bar:
         task = bar.add_task("starting", total=total)
         begun = 0
 
@@ -190,13 +191,7 @@ def counting(what: str, *, quiet: bool) -> Iterator[Callable[[int, int], None]]:
     if quiet:
         yield lambda done, total: None
         return
-    from rich.progress import (
-        BarColumn,
-        MofNCompleteColumn,
-        Progress,
-        TextColumn,
-        TimeRemainingColumn,
-    )
+    from rich.progress import BarColumn, MofNCompleteColumn, TextColumn, TimeRemainingColumn
 
     columns = (
         TextColumn("{task.description}"),
@@ -204,13 +199,21 @@ def counting(what: str, *, quiet: bool) -> Iterator[Callable[[int, int], None]]:
         MofNCompleteColumn(),
         TimeRemainingColumn(),
     )
-    with Progress(*columns, console=console(stderr=True), transient=True) as bar:
+    with _bar(columns) as bar:
         task = bar.add_task("preparing", total=None)
 
         def count(done: int, total: int) -> None:
             bar.update(task, description=what if done else None, completed=done, total=total)
 
         yield count
+
+
+def _bar(columns: Sequence[ProgressColumn]) -> Progress:
+    """Return a bar on stderr; in a file, where it would leave an empty line, there is none."""
+    from rich.progress import Progress
+
+    err = console(stderr=True)
+    return Progress(*columns, console=err, transient=True, disable=not err.is_terminal)
 
 
 @contextmanager

@@ -14,6 +14,7 @@ from ebac._util.arguments import require_path
 from ebac._util.progress import Progress
 from ebac.logs.about import SIMULATED_DRIVES, SIMULATED_FILE, About
 from ebac.logs.layout import Layout
+from ebac.logs.ticks import numbered
 from ebac.scenario_text import warn_without_text
 
 if TYPE_CHECKING:
@@ -200,12 +201,15 @@ def write_mcap(
     *,
     files: Mapping[str, str] | None = None,
 ) -> None:
-    """Write a trace as a log, with text files attached; its time is t itself, so the same run gives the same file."""
+    """Write a trace as a log, with text files attached; its time is t itself, so the same run gives the same file.
+
+    Rows of another program, which have no column `tick`, get one from their times.
+    """
     from ebac.logs.writer import LogWriter
 
-    data = {name: trace[name] for name in trace}
+    data, columns = numbered(trace)
     about = about_trace(trace, files or {})
-    with LogWriter(path, layout=Layout.of(data, trace.columns), about=about) as log:
+    with LogWriter(path, layout=Layout.of(data, columns), about=about) as log:
         for first in range(0, len(trace), CHUNK_ROWS):
             log.write({name: v[first : first + CHUNK_ROWS] for name, v in data.items()})
             progress(min(first + CHUNK_ROWS, len(trace)), len(trace))

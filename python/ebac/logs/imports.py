@@ -48,13 +48,12 @@ def from_mat(path: Path) -> Trace:
             found = loadmat(file, simplify_cells=True)
         except (ValueError, TypeError, NotImplementedError, OSError) as error:
             raise ValueError(f"{path}: not a MATLAB file ({_first(error)})") from None
-    about = {  # MATLAB has an empty array for a text without letters
-        name: text if isinstance(text, str) else "" for name, text in _part(found, "about").items()
-    }
-    units, meanings, names = (_part(found, part) for part in ("units", "meanings", "names"))
+    about, units, meanings, names = (
+        _words(found, part) for part in ("about", "units", "meanings", "names")
+    )
     data, columns = {}, {}
     for short in units:
-        name = str(names.get(short, short))
+        name = names.get(short) or short
         data[name] = np.atleast_1d(np.asarray(found[short]))
         columns[name] = _info(name, units[short], meanings.get(short))
     return _trace(path, data, columns, about)
@@ -116,9 +115,12 @@ def _info(name: str, unit: object, meaning: object) -> ColumnInfo:
     return ColumnInfo(name=name, unit=str(unit or "1"), meaning=str(meaning or ""))
 
 
-def _part(found: Mapping[str, Any], name: str) -> dict[str, Any]:
+def _words(found: Mapping[str, Any], name: str) -> dict[str, str]:
+    """Return a struct of MATLAB as texts; for one without letters MATLAB has an empty array."""
     part = found.get(name)
-    return part if isinstance(part, dict) else {}
+    if not isinstance(part, dict):
+        return {}
+    return {key: text if isinstance(text, str) else "" for key, text in part.items()}
 
 
 def _texts(metadata: Mapping[bytes, bytes]) -> dict[str, str]:

@@ -166,8 +166,10 @@ class Layout:
         if len(sizes) > 1:
             raise ValueError(f"columns of {sizes} values: must be one, or one per axis")
         numbers = {column.name: column.kind for column in self.columns if column.size == 1}
-        if not {"t", "tick"} <= set(numbers):
-            raise ValueError("the columns t and tick are missing: a row is known by them")
+        if missing := [name for name in ("t", "tick") if name not in numbers]:
+            raise ValueError(
+                f"the columns t and tick are those a row is known by: {' and '.join(missing)} is missing"
+            )
         if numbers["t"] == "bool" or numbers["tick"] in ("bool", "float64"):
             raise ValueError("the columns t and tick must be numbers, tick a whole one")
         if any(column.name.startswith("#") for column in self.columns):

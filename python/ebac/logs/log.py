@@ -10,6 +10,7 @@ import numpy as np
 from ebac.logs.about import About
 from ebac.logs.events import Event
 from ebac.logs.records import Condition
+from ebac.logs.ticks import ticks_of
 from ebac.trace import Trace
 
 
@@ -69,10 +70,9 @@ class Log:
 
     @property
     def gaps(self) -> list[Gap]:
-        """Where rows are missing between two rows of the log."""
-        if "tick" not in self.trace:
-            return []
-        tick, t = self.trace["tick"], self.trace["t"]
+        """Where rows are missing between two rows of the log; by their times where it has no column `tick`."""
+        t = self.trace["t"]
+        tick = self.trace["tick"] if "tick" in self.trace else ticks_of(t)
         steps = np.diff(tick.astype(np.int64))
         return [
             Gap(after_tick=int(tick[i]), t=float(t[i]), rows=int(steps[i]) - 1)

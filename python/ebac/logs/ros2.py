@@ -19,6 +19,7 @@ from ebac.logs.log import Log
 from ebac.logs.reader import read, read_bytes
 from ebac.logs.records import FileBytes
 from ebac.logs.ros2_messages import EVENTS, TYPES, log_message, topics
+from ebac.logs.ticks import numbered
 
 if TYPE_CHECKING:
     from ebac.trace import Trace
@@ -173,8 +174,8 @@ def to_ros2(
 
 def write_trace(trace: Trace, path: Path, progress: Progress | None = None) -> dict[str, int]:
     """Write a trace as a bag, its time t itself; return the number of messages by topic."""
-    data = {name: trace[name] for name in trace}
-    layout = Layout.of(data, trace.columns)
+    data, columns = numbered(trace)
+    layout = Layout.of(data, columns)
     with path.open("wb") as file:
         bag = BagWriter(file, layout)
         for first in range(0, len(trace), CHUNK_ROWS):
