@@ -101,6 +101,21 @@ def test_an_arm_is_identified_from_a_force_read_at_100_hz(
         assert result[name].low <= true <= result[name].high
 
 
+@pytest.mark.parametrize("rows", [2, 10])
+def test_rows_without_a_force_are_those_between_two_readings(
+    pushed: Recording, rows: int, tmp_path: Path
+) -> None:
+    assert pushed.force is not None
+    force = np.where(np.arange(pushed.force.size) % rows == 1, pushed.force, np.nan)
+    log = identify.load(written(pushed, force, tmp_path), lag=pushed.lag)
+    gone = np.count_nonzero(np.isnan(force))
+    assert f"force: is empty in {gone} of {force.size} rows" in " ".join(log.remarks)
+    result = identify.fit_arm(log)
+    for name, true in TRUE.items():
+        assert result[name].value == pytest.approx(true, rel=0.04)
+        assert result[name].low <= true <= result[name].high
+
+
 def test_a_loop_says_which_tick_it_took(pushed: Recording, tmp_path: Path) -> None:
     assert pushed.force is not None
     log = identify.load(written(pushed, held(pushed.force, 10, 3), tmp_path))

@@ -64,7 +64,7 @@ def test_columns_that_are_none_are_refused(columns: str) -> None:
         ([column(), column(name="tick", kind="bool")], "tick a whole one"),
         ([column(kind="bool"), column(name="tick", kind="int64")], "must be numbers"),
         ([column(), column(name="tick", kind="int64"), column(name="#opcode")], "begins with #"),
-        ([column()], "t and tick are missing"),
+        ([column()], "the columns t and tick are those"),
     ],
 )
 def test_columns_that_are_no_rows_are_refused(columns: list[object], words: str) -> None:

@@ -1,4 +1,4 @@
-"""A force that was read less often than its log has rows, and held between: only the rows with a new reading count."""
+"""A force that was read less often than its log has rows: only the rows with a new reading count."""
 
 from __future__ import annotations
 
@@ -48,6 +48,8 @@ def new_readings(force: NDArray[np.float64]) -> tuple[NDArray[np.intp], int]:
 def without_held(signals: Columns, remarks: list[str]) -> Columns:
     """Return the rows in which the force was read anew, with the mean of the motor's force since the last of them.
 
+    Between two readings the log repeats the last one, or has no number.
+
     Parameters
     ----------
     signals : dict of arrays, shape (rows,)
@@ -57,16 +59,24 @@ def without_held(signals: Columns, remarks: list[str]) -> Columns:
     """
     if "force" not in signals:
         return signals
-    rows, held = new_readings(signals["force"])
-    if held == 1:
-        return signals
+    force = signals["force"]
+    read = np.flatnonzero(np.isfinite(force))
+    if LEAST_ROWS <= read.size < force.size:
+        rows, held = read, int(np.median(np.diff(read)))
+        remarks.append(
+            f"force: is empty in {force.size - read.size} of {force.size} rows; they are left out"
+        )
+    else:
+        rows, held = new_readings(force)
+        if held == 1:
+            return signals
+        remarks.append(
+            f"force: changes every {plural(held, 'row')} only, it was read less often and held; the rows between, "
+            "where it is late, are left out"
+        )
     out = {name: values[rows] for name, values in signals.items()}
-    if "motor" in signals:
+    if "motor" in signals and np.isfinite(signals["motor"]).all():
         total = np.concatenate([[0.0], np.cumsum(signals["motor"])])
         since = np.concatenate([[max(rows[0] - held, -1)], rows[:-1]])
         out["motor"] = (total[rows + 1] - total[since + 1]) / (rows - since)
-    remarks.append(
-        f"force: changes every {plural(held, 'row')} only, it was read less often and held; the rows between, where it "
-        "is late, are left out"
-    )
     return out
