@@ -394,6 +394,10 @@ def test_the_reference_rests_ideally_at_the_figure_of_the_theory() -> None:
         ("ebac", 1500, ebac.MinimumJerk(target=0.05, at=0.5, duration=1.4), "moves with the hand"),
         ("direct", 10e3, ebac.Sine(centre=0.03, amplitude=0.005, frequency=5), "swings"),
         ("direct", 10e3, ebac.MinimumJerk(target=0.05, at=0.5, duration=1.4), "swings"),
+        ("ebac", 10e3, ebac.Sine(centre=0.04, amplitude=0.03, frequency=4), "moves with the hand"),
+        # The hand goes a longer way than the handle, which swings at 16 Hz.
+        ("direct", 10e3, ebac.Sine(centre=0.04, amplitude=0.03, frequency=4), "swings"),
+        ("tca", 10e3, ebac.Sine(centre=0.04, amplitude=0.03, frequency=4), "swings"),
     ],
 )
 def test_a_handle_that_follows_its_hand_is_in_no_limit_cycle(
@@ -410,6 +414,17 @@ def test_a_handle_that_follows_its_hand_is_in_no_limit_cycle(
         assert ("limit cycle         none" in str(met)) == (verdict != "swings")
 
 
+@pytest.mark.parametrize("name", ["t", "x", "f_applied"])
+def test_a_row_that_is_no_number_is_not_judged(run: Any, name: str) -> None:
+    trace = run("ebac", seconds=0.5)
+    values = trace[name].copy()
+    values[400] = np.nan
+    with pytest.raises(
+        ValueError, match=rf"{name} is no number in 1 of 501 rows, first in row 400"
+    ):
+        ebac.contact(trace.with_column(name, values), truth=False)
+
+
 def test_tremor_and_a_hand_that_has_let_go_excuse_no_swing() -> None:
     shaking = ebac.Hand(target=0.03, tremor_amplitude=0.01, tremor_frequency=5)
     scenario = ebac.Scenario(
@@ -417,7 +432,7 @@ def test_tremor_and_a_hand_that_has_let_go_excuse_no_swing() -> None:
     )
     assert ebac.contact(ebac.simulate(scenario, "ebac")).verdict == "swings"
     moving = ebac.Hand(path=ebac.Sine(amplitude=0.01, frequency=1))
-    made = synthetic(0.001 * np.sin(20 * T))
+    made = synthetic(0.001 * np.sin(6 * T))
     for release, follows in ((1.0, False), (np.inf, True)):
         own = scenario.replace(hand=moving.replace(release_at=release))
         trace = ebac.Trace(

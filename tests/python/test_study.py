@@ -429,3 +429,11 @@ def test_the_seed_of_the_base_is_that_of_the_study() -> None:
 
     assert drawn(2) == drawn(1, 2) != drawn(1)
     assert drawn(2, 1) == drawn(1)
+
+
+def test_hands_that_never_reach_the_wall_are_told_of() -> None:
+    hands = ebac.Operators.sample(4, 1)
+    table = hands.to_pandas()
+    table.loc[:1, "target_m"] = -0.005
+    with pytest.warns(UserWarning, match="rest before the wall, 2 of 4 under d1K10: every law"):
+        ebac.study(ebac.Operators.from_dataframe(table), ["direct"], ["d1K10"])

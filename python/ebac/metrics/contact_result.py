@@ -122,7 +122,8 @@ class Contact:
         handle left the surface, and rest, swing and force are those of free air. None where that is not known.
     with_hand : bool
         Whether it swings because the target of the simulated hand still moves over the last 30 %: there the handle
-        goes no longer a way, to and fro, than the target on all axes, tremor apart. Such a swing is no limit cycle.
+        goes no longer a way, to and fro, than the target on all axes, tremor apart, and turns round no more than twice
+        as often and twice more. Such a swing is no limit cycle.
     saturated_share : float or None
         Share of ticks in which the command was more than the motor's peak force, which is applied then. None without a
         scenario, and on a gimbal, where a force is no torque of one motor.

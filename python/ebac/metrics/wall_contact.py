@@ -28,6 +28,8 @@ from ebac.trace import Trace
 #: A handle that met nothing for so long at the end of a run has left the surface [s]; a law that shakes meets the wall
 #: several times within it.
 LEFT_AFTER = 0.5
+#: So many times as often as its target may a handle turn round that follows its hand, and so many times more.
+OFTEN, MORE = 2, 2
 #: The numbers of a contact, and what the core calls them.
 COLUMNS = {
     "rest_m": "rest",
@@ -77,13 +79,15 @@ def contact(trace: Trace, *, axis: int = 0, truth: bool = True) -> Contact:
     Raises
     ------
     ValueError
-        When the trace is too short or has no such axis.
+        When the trace is too short, has no such axis, or a time, position or force that is no number.
     TypeError
         When it is no trace.
     """
     require(trace, Trace, "ebac.contact", "a trace, as ebac.simulate or ebac.load returns it")
     if len(trace) < FEWEST_ROWS:
         raise ValueError(f"the trace has {len(trace)} rows: a contact needs at least {FEWEST_ROWS}")
+    for name in ("t", "x", "f_applied"):
+        _refuse_gaps(trace, name, axis)
     true, with_energy = (truth and name in trace for name in ("true.x", "true.energy"))
     energy = _columns(trace, "true.energy").sum(axis=1) if with_energy else None
     stored = None
@@ -129,6 +133,15 @@ def contact(trace: Trace, *, axis: int = 0, truth: bool = True) -> Contact:
     )
 
 
+def _refuse_gaps(trace: Trace, name: str, axis: int) -> None:
+    values = trace.axis(name, axis)
+    if (wrong := np.flatnonzero(~np.isfinite(values))).size:
+        raise ValueError(
+            f"{name} is no number in {wrong.size} of {len(trace)} rows, first in row {wrong[0]} (counted from 0): a "
+            "contact cannot be judged; take the part before it, or repair the log"
+        )
+
+
 def _known(environment: Environment) -> bool:
     """Return whether it is known what a world stores: not of a function, or of an engine that stands for no bodies."""
     world = foreign(environment)
@@ -136,22 +149,36 @@ def _known(environment: Environment) -> bool:
 
 
 def moves_with_hand(trace: Trace, axis: int = 0) -> bool:
-    """Return whether the handle goes no longer a way in the tail than the target of the scenario's hand, tremor apart.
+    """Return whether the handle follows the target of the scenario's hand in the tail, tremor apart.
 
-    A limit cycle goes to and fro much farther than a hand that still moves.
+    A limit cycle goes to and fro farther than a hand that still moves, or more often; a hand that lands may bounce.
     """
     if trace.scenario is None:
         return False
     t, hand = trace["t"], trace.scenario.hand.replace(tremor_amplitude=0.0)
     tail = t >= t[-1] - TAIL_SHARE * (t[-1] - t[0])
     held = t[tail & (t < hand.release_at)]
-    targets = [[hand.target(now, i) for i in range(trace.axes)] for now in held]
+    if len(held) == 0:
+        return False
+    targets = np.array([[hand.target(now, i) for i in range(trace.axes)] for now in held])
     x = trace.axis("true.x" if "true.x" in trace else "x", axis)[tail]
-    return len(held) > 0 and _way(x) <= _way(np.array(targets))
+    return _way(x) <= _way(targets) and _turns(x) <= OFTEN * _turns(targets[:, axis]) + MORE
 
 
 def _way(x: NDArray[np.float64]) -> float:
     return float(np.abs(np.diff(x, axis=0)).sum())
+
+
+def _turns(x: NDArray[np.float64]) -> int:
+    """Return how often a motion turns round and goes back by more than `STILL_SWING`."""
+    turns, forward, farthest = 0, None, float(x[0])
+    for place in x.tolist():
+        if forward is not None and (place > farthest) == forward:
+            farthest = place
+        elif abs(place - farthest) > STILL_SWING:
+            turns += forward is not None
+            forward, farthest = place > farthest, place
+    return turns
 
 
 def _moves(trace: Trace) -> bool:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Sequence
 from concurrent.futures import Executor
 from pathlib import Path
@@ -11,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ebac import _core
+from ebac._core import Wall
 from ebac._util.arguments import require
 from ebac._util.cores import thread_count
 from ebac._util.progress import Progress
@@ -60,6 +62,11 @@ def study(
     Returns
     -------
     Study
+
+    Warns
+    -----
+    UserWarning
+        When hands come to rest before the surface.
     """
     require(population, Operators, "ebac.study", "a population, an Operators")
     chosen = tuple(find(conditions))
@@ -88,6 +95,7 @@ def study(
     columns = dict(result.columns)
     columns["condition"] = np.tile(np.repeat([c.name for c in chosen], lengths), n)
     columns["operator"] = np.tile(np.concatenate(rows), n)
+    _tell_of_free_air(chosen, lengths, scenarios, result["ideal_m"])
     columns["ideal_settled_s"] = np.tile(ideal["settled_s"], n)
     columns["ideal_good"] = (
         np.abs(np.tile(ideal["rest_m"], n) - columns["ideal_m"]) <= columns["allowed_m"]
@@ -101,6 +109,25 @@ def study(
         operators=population, conditions=chosen, scenarios=scenarios, designed_for=believed,
         laws=named, columns=columns,
     )  # fmt: skip
+
+
+def _tell_of_free_air(
+    chosen: Sequence[Condition],
+    lengths: Sequence[int],
+    scenarios: Sequence[Scenario],
+    ideal_m: NDArray[np.float64],
+) -> None:
+    """Warn of hands that come to rest before the surface, of which no law has anything to show."""
+    walls = [s.environment for s in scenarios]
+    surface = np.array([w.position if isinstance(w, Wall) else -np.inf for w in walls])
+    before = np.split(ideal_m[: len(scenarios)] <= surface, np.cumsum(lengths)[:-1])
+    free = {c.name: part for c, part in zip(chosen, before, strict=True) if part.any()}
+    if free:
+        each = ", ".join(f"{part.sum()} of {len(part)} under {name}" for name, part in free.items())
+        warnings.warn(
+            f"hands that rest before the wall, {each}: every law is good for them; give targets beyond the surface",
+            stacklevel=3,
+        )
 
 
 def ideal_contacts(
