@@ -437,3 +437,14 @@ def test_hands_that_never_reach_the_wall_are_told_of() -> None:
     table.loc[:1, "target_m"] = -0.005
     with pytest.warns(UserWarning, match="rest before the wall, 2 of 4 under d1K10: every law"):
         ebac.study(ebac.Operators.from_dataframe(table), ["direct"], ["d1K10"])
+
+
+@pytest.mark.filterwarnings("default")
+def test_the_command_notes_what_the_library_warns_of(tmp_path: Path) -> None:
+    file = tmp_path / "hands.csv"
+    file.write_text("m_kg,b_Ns_per_m,k_N_per_m,target_m\n0.2,5,300,-0.02\n0.2,5,300,0.04\n")
+    told = CliRunner().invoke(app, ["study", "--population", str(file), "--law", "direct", "--no-files"])
+    assert told.exit_code == 0
+    said = " ".join(told.stderr.split())
+    assert "Note: hands that rest before the wall, 1 of 2 under d1K10" in said
+    assert ".py" not in said

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from typing import Annotated, ClassVar
 
 import typer
@@ -91,3 +92,12 @@ def main(
 
     Tables show mm, N, mJ, s and Hz. Options and `--json` are in SI units throughout.
     """
+    warnings.showwarning = _noted
+
+
+def _noted(message: Warning | str, category: type[Warning], *where: object, **more: object) -> None:
+    """Print what the library warns of as every other note, without the line of code."""
+    from ebac.cli import output
+
+    if issubclass(category, UserWarning):
+        output.note(str(message).removesuffix("."))
