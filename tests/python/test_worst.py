@@ -23,7 +23,7 @@ from ebac.studies.worst import replays
 
 FAMILIES = ("impact", "press-and-go", "tapping", "swinging", "drive", "noise", "periodic")
 KEYS = [
-    "law", "condition", "family", "energy_drawn_J", "reserve_J", "most_drawn_J", "most_pull_N",
+    "law", "condition", "family", "energy_drawn_J", "energy_drawn_300_s_J", "reserve_J", "most_drawn_J", "most_pull_N",
     "within_declared_pull", "unseen_J", "runs", "parameters",
 ]  # fmt: skip
 
@@ -337,3 +337,13 @@ def test_an_attribute_of_a_law_does_not_weaken_the_hands_of_a_search() -> None:
     stronger = ebac.Variant("ebac", {"pull": 40.0})
     found = ebac.worst(stronger, family=["impact"], evaluations=40, base=base, threads=1)
     assert found.pull == 40.0
+
+
+def test_what_a_hand_draws_in_five_minutes_is_that_of_a_run_of_five_minutes(
+    unguarded: Worst,
+) -> None:
+    for hand in unguarded.hands:
+        scenario = hand.family.make(unguarded.condition.change(ALONE), hand.values, 300.0)
+        met = ebac.contact(ebac.simulate(scenario, unguarded.made))
+        assert hand.long_energy_J == pytest.approx(-min(0.0, met.least_energy_J or 0.0), rel=1e-9)
+        assert hand.long_energy_J >= hand.energy_J

@@ -25,6 +25,8 @@ CHILDREN, PARENTS, SPREAD, LEAST_SPREAD = 40, 10, 0.15, 0.01
 GUIDE = 1e-3
 #: Runs measured at once.
 BATCH = 256
+#: How long the worst hand goes on in a run of its own [s]: what leaks slowly shows there.
+LONG = 300.0
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -41,6 +43,8 @@ class WorstHand:
         To simulate it again.
     energy_J : float
         Energy it drew: minus the least energy of `Contact`, at least 0.
+    long_energy_J : float
+        The same in a run of `LONG` seconds, in which the hand goes on.
     most_drawn_J : float
         The most in any window, see `Contact`.
     most_pull_N : float
@@ -55,6 +59,7 @@ class WorstHand:
     values: dict[str, float]
     scenario: Scenario
     energy_J: float
+    long_energy_J: float
     most_drawn_J: float
     most_pull_N: float
     unseen_J: float
@@ -163,6 +168,11 @@ class HandSearch:
             if self.runs == before:
                 break
 
+    def _drawn_for_long(self, values: dict[str, float]) -> float:
+        scenario = self.family.make(self.base, values, LONG)
+        columns = measure([(scenario, self.law)], threads=1, limits=RunLimits(), watch=Watch())
+        return max(0.0, -float(columns["least_energy_J"][0]))
+
     def _found(self) -> WorstHand:
         if self.best is None:  # not even one number came of the first batch
             raise ValueError(f"family {self.family.name}: no run gave a number")
@@ -175,6 +185,7 @@ class HandSearch:
             values=values,
             scenario=scenario,
             energy_J=max(0.0, -float(columns["least_energy_J"][0])),
+            long_energy_J=self._drawn_for_long(values),
             most_drawn_J=float(columns["most_drawn_J"][0]),
             most_pull_N=float(columns["most_pull_N"][0]),
             unseen_J=scenario.device.count * float(turned),

@@ -180,20 +180,19 @@ def _show(found: Worst, evaluations: int) -> None:
     headings = [
         "family",
         "drawn",
+        "in 5 min",
         "drawn in any window",
         "hardest pull",
         "runs",
     ]
     if found.declared is not None:
         headings.append(f"within the law's {found.declared:g} N")
-    grid = output.table(headings, numbers=(1, 2, 3, 4))
+    grid = output.table(headings, numbers=(1, 2, 3, 4, 5))
     for hand in found.hands:
         within = {None: [], True: ["yes"], False: ["[red]no[/]"]}[found.within(hand)]
-        beyond = found.reserve is not None and hand.energy_J > found.reserve
-        drawn = formatting.quantity(hand.energy_J, "J")
         grid.add_row(
             hand.family.name,
-            f"[red]{drawn}[/]" if beyond else drawn,
+            *(_drawn(found, energy) for energy in (hand.energy_J, hand.long_energy_J)),
             formatting.quantity(hand.most_drawn_J, "J"),
             formatting.quantity(hand.most_pull_N, "N"),
             str(hand.runs),
@@ -220,16 +219,26 @@ def _show(found: Worst, evaluations: int) -> None:
     )
 
 
+def _drawn(found: Worst, energy: float) -> str:
+    from ebac._util import formatting
+
+    text = formatting.quantity(energy, "J")
+    return f"[red]{text}[/]" if found.reserve is not None and energy > found.reserve else text
+
+
 def _verdict(found: Worst, top: WorstHand) -> str:
     from ebac._util import formatting
 
-    drawn = f"It draws {formatting.quantity(top.energy_J, 'J')}"
+    drawn, longer = (formatting.quantity(e, "J") for e in (top.energy_J, top.long_energy_J))
+    drawn = f"It draws {drawn} in {top.scenario.seconds:g} s and {longer} in 5 min"
     if found.reserve is None:
         return f"{drawn}; {found.law} has no reserve."
     unseen = formatting.quantity(top.unseen_J, "J")
     reserve = f"the reserve is {formatting.quantity(found.reserve, 'J')}"
-    if top.energy_J <= found.reserve:
+    if max(top.energy_J, top.long_energy_J) <= found.reserve:
         return f"{drawn}; {reserve}: within it."
+    if top.energy_J <= found.reserve:
+        return f"{drawn}; {reserve}: within it at first, beyond it in the end."
     drawn = f"{drawn}; {reserve}: beyond it."
     return f"{drawn} An account of encoder counts may miss {unseen}: one count times all changes of the force."
 
