@@ -130,6 +130,21 @@ TEST(Heartbeat, ErrorBehaviourIsConfigured) {
   }
 }
 
+// CiA 301, 0x1029: only 0 asks for the operational state first.
+TEST(Heartbeat, ErrorBehaviourBeforeOperation) {
+  for (const auto& [behaviour, state] : {std::pair{0, NmtState::kPreOperational},
+                                         {1, NmtState::kPreOperational},
+                                         {2, NmtState::kStopped}}) {
+    SimulatedDrive drive = ready_drive();
+    must(drive, 0x1016, 2, 5 << 16 | 50);
+    must(drive, 0x1029, 1, behaviour);
+    say(drive, "000#80 01");
+    say(drive, "705#05");
+    drive.elapse(50 * kMillisecond);
+    EXPECT_EQ(drive.nmt(), state);
+  }
+}
+
 TEST(Heartbeat, OneNodeIsWatchedOnce) {
   SimulatedDrive drive = ready_drive();
   must(drive, 0x1016, 1, 5 << 16 | 50);

@@ -67,11 +67,11 @@ void SimulatedDrive::lose_connection(Cause cause) EBAC_RT {
   errors_.gone(cause);  // an event: no reset waits for the master
   if (cause == Cause::kConnection) {
     cure(cause);
-  } else if (nmt_ == NmtState::kOperational) {
-    const std::int64_t behaviour = objects_[kAt<0x1029, 1>];
-    if (behaviour == 0) change(NmtState::kPreOperational);
-    if (behaviour == 2) change(NmtState::kStopped);
+    return;
   }
+  const std::int64_t behaviour = objects_[kAt<0x1029, 1>];
+  if (behaviour == 0 && nmt_ == NmtState::kOperational) change(NmtState::kPreOperational);
+  if (behaviour == 2) change(NmtState::kStopped);
 }
 
 void SimulatedDrive::set_condition(Condition condition, bool present) EBAC_RT {
