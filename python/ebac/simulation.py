@@ -150,6 +150,11 @@ def simulate(
     """
     require(scenario, Scenario, "ebac.simulate", "a Scenario")
     require(limits, (_core.Limits, bool), "ebac.simulate", "limits=True, False or a Limits")
+    for name in changes:
+        if name in Scenario.__dataclass_fields__ and name != "observer":  # which laws have, too
+            raise TypeError(
+                f"{name} belongs to the scenario, not to a law: ebac.simulate(scenario.replace({name}=...), law)"
+            )
     require(soft_start, (int, float), "ebac.simulate", "soft_start in seconds, a number")
     if bus is not None:
         require(bus, _core.TimedBus, "ebac.simulate", "a TimedBus")

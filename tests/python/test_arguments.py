@@ -310,3 +310,17 @@ def test_what_lists_the_names_of_a_kind_is_a_command(kind: str) -> None:
 def test_the_command_that_lists_laws_has_every_name() -> None:
     text = " ".join(CliRunner().invoke(app, ["laws"]).stdout.split())
     assert [name for name in (*ebac.LAWS, *tuned_laws()) if name not in text] == []
+
+
+def test_what_belongs_to_the_scenario_is_said_to() -> None:
+    with pytest.raises(TypeError, match=r"seconds belongs to the scenario.*replace\(seconds="):
+        ebac.simulate(ebac.Scenario(), "ebac", seconds=2)
+    assert len(ebac.simulate(ebac.Scenario(seconds=0.1), "ebac", observer=False)) == 101
+
+
+def test_one_operator_can_be_chosen_by_its_number() -> None:
+    hands = ebac.Operators.grid()
+    assert hands[3] == hands[3:4]
+    assert hands[-1] == hands[[59]]
+    with pytest.raises(IndexError):
+        hands[60]

@@ -10,7 +10,7 @@ import pytest
 import typer.main
 from typer.testing import CliRunner
 
-from ebac.cli import app
+from ebac.cli import app, completion
 from ebac.cli.wall.wall import DEFAULT_LAWS
 
 
@@ -60,7 +60,7 @@ def test_help_is_whole_in_80_columns(words: tuple[str, ...]) -> None:
 def test_a_command_does_not_wait_for_the_others(words: list[str]) -> None:
     code = f"""
 import atexit, sys
-from ebac.cli import app
+from ebac.cli import app, completion
 others = ("numpy", "ebac.cli.drive", "ebac.cli.studies.study", "ebac.cli.teleop")
 atexit.register(lambda: print([name for name in others if name in sys.modules], file=sys.stderr))
 app({words!r})
@@ -70,3 +70,13 @@ app({words!r})
     )
     assert done.stderr.strip() == "[]"
     assert done.stdout
+
+
+def test_names_that_an_argument_takes_are_completed() -> None:
+    assert completion.data_sets("ta") == ["tapping"]
+    assert completion.paper_items("eq1") == ["eq1", "eq10", "eq11", "eq12"]
+    assert completion.schemes("waves,eb") == ["waves,ebac"]
+    assert completion.several(completion.one_of("png", "pdf", "svg"))("png,p") == [
+        "png,png",
+        "png,pdf",
+    ]

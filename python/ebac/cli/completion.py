@@ -78,3 +78,30 @@ def conditions(incomplete: str) -> list[str]:
     from ebac.studies import CONDITIONS, GROUPS
 
     return _begun(incomplete, (*GROUPS, *CONDITIONS))
+
+
+def data_sets(incomplete: str) -> list[str]:
+    """Return the data sets that begin so."""
+    from ebac.datasets import DATASETS
+
+    return _begun(incomplete, (*DATASETS, "all"))
+
+
+def paper_items(incomplete: str) -> list[str]:
+    """Return the items of the paper that begin so."""
+    from ebac.paper import ITEMS
+
+    return _begun(incomplete, (*ITEMS, "all"))
+
+
+@several
+def schemes(incomplete: str) -> list[str]:
+    """Return the schemes of teleoperation that begin so."""
+    from ebac.teleop import SCHEMES
+
+    return _begun(incomplete, SCHEMES)
+
+
+def one_of(*names: str) -> Callable[[str], list[str]]:
+    """Return a completion of a few names."""
+    return lambda incomplete: _begun(incomplete, names)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from ebac._util.arguments import unknown
-from ebac.cli import output
+from ebac.cli import completion, output
 
 if TYPE_CHECKING:
     from ebac.datasets import Dataset
@@ -20,6 +20,7 @@ def demo(
         typer.Argument(
             help="Data sets to write, or `all`; without a name, list them.",
             metavar="[NAME]...",
+            autocompletion=completion.data_sets,
             show_default=False,
         ),
     ] = None,

@@ -12,7 +12,7 @@ import typer
 
 from ebac._util.arguments import unknown
 from ebac._util.figure_formats import FORMATS
-from ebac.cli import output
+from ebac.cli import completion, output
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -37,6 +37,7 @@ class FigureOptions:
             "--format",
             help="Format of figures: png, pdf or svg; several separated by commas.",
             show_default="png",
+            autocompletion=completion.several(completion.one_of(*FORMATS)),
             rich_help_panel=PANEL,
         ),
     ] = None

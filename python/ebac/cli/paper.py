@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from ebac._util.arguments import unknown
-from ebac.cli import interrupts, output
+from ebac.cli import completion, interrupts, output
 from ebac.cli.files import ResultOptions
 
 if TYPE_CHECKING:
@@ -30,6 +30,7 @@ def paper(
             help="specs, eq1 to eq12, fig1 to fig11, table1, or all.",
             show_default="all",
             metavar="[ITEM]...",
+            autocompletion=completion.paper_items,
         ),
     ] = None,
     as_json: output.AsJson = False,

@@ -277,9 +277,9 @@ class Operators:
         """Return how many operators there are."""
         return len(self.m_kg)
 
-    def __getitem__(self, part: slice | Sequence[int]) -> Self:
-        """Return some of the operators."""
-        chosen = part if isinstance(part, slice) else list(part)
+    def __getitem__(self, part: int | slice | Sequence[int]) -> Self:
+        """Return some of the operators; of one number, that one alone."""
+        chosen = part if isinstance(part, slice) else np.atleast_1d(part)
         return type(self)(**{name: values[chosen] for name, values in self.columns().items()})
 
     def __eq__(self, other: object) -> bool:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from ebac._util.headings import with_units
-from ebac.cli import by_name, options, output
+from ebac.cli import by_name, completion, options, output
 from ebac.cli.files import PANEL, ResultOptions
 from ebac.cli.gastroscopy.watch import watch
 from ebac.cli.wall.results import log_names
@@ -34,6 +34,7 @@ class MasterOptions:
         typer.Option(
             help="pedals, or the third axis as a rate or as a place with a clutch.",
             rich_help_panel=MASTER,
+            autocompletion=completion.one_of("pedals", "rate", "clutch"),
         ),
     ] = "rate"
     bending: Annotated[

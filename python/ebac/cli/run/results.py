@@ -141,7 +141,7 @@ class Result:
             expected=_expected(configuration) if measured and whole and simulated else None,
             observer=observer_use(part),
             limits=current_limits(part),
-            times=times(part) if len(part) else None,
+            times=replace(times(part), skipped=int(trace["skipped"].sum())) if len(part) else None,
             fault=None if fault is None else fault.fault.name.lower(),
             changed=changed,
             engine=None if process is None else Served.of(process, seconds),

@@ -11,13 +11,15 @@ from typing import Annotated, Any
 import typer
 
 from ebac._util.headings import with_units
-from ebac.cli import options, output, simulated
+from ebac.cli import completion, options, output, simulated
 from ebac.cli.teleop.consent import Consent
 from ebac.cli.teleop.options import LinkOptions
 
 PORT = typer.Option(help="UDP port to listen on; 0 takes any free one.", min=0, max=65535)
 HOST = typer.Option(help="Address of this machine to use.")
-SCHEME = typer.Option(help="Scheme; the same on both sides. See `ebac teleop run`.")
+SCHEME = typer.Option(
+    help="Scheme; the same on both sides. See `ebac teleop run`.", autocompletion=completion.schemes
+)
 CUT = 0.2
 REPORT = 5.0
 LOST, BACK = 2, 3
@@ -216,9 +218,11 @@ def _line(report: dict[str, Any]) -> str:
         f"{came['missing']:,} missing",
         f"{report['refused']:,} damaged",
     ]
-    if report["losses"] is not None:
+    if not came["received"]:
+        parts.append("nobody answered yet")
+    elif report["losses"] is not None:
         parts.append(f"link lost {report['losses']} times")
-    if report["round_trip"] is not None:
+    if came["received"] and report["round_trip"] is not None:
         parts.append(f"round trip {1e3 * report['round_trip']:.0f} ms")
     if report["most_force"] is not None:
         parts.append(f"largest force {report['most_force']:.1f} N")

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from ebac.cli import options, output
+from ebac.cli import completion, options, output
 from ebac.cli.files import ResultOptions
 from ebac.cli.teleop.options import LinkOptions
 
@@ -20,7 +20,11 @@ def run(
     over: LinkOptions,
     scheme: Annotated[
         list[str] | None,
-        typer.Option(help="Schemes, separated by commas.", show_default="all"),
+        typer.Option(
+            help="Schemes, separated by commas.",
+            show_default="all",
+            autocompletion=completion.schemes,
+        ),
     ] = None,
     law: Annotated[
         str | None,
