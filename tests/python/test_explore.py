@@ -14,6 +14,7 @@ from hypothesis.extra import numpy as hnp
 import ebac
 from ebac._util.gaps import alone
 from ebac.explore.pack import even, packed
+from ebac.explore.panels import without_numbers
 from ebac.explore.thin import bands
 from ebac.plot.style import COLOURS
 
@@ -211,3 +212,45 @@ def test_in_a_browser_a_curve_is_a_line_and_its_gaps_stay_open(
         page.mouse.wheel(0, -240)
         page.wait_for_function(f"ebac_exploration.drawn > {before}")
         page.wait_for_timeout(300)
+
+
+def test_a_column_without_a_number_says_why() -> None:
+    with_observer = ebac.simulate(ebac.Scenario(seconds=0.5), "ebac")
+    (panel,) = with_observer.explore("law.beta").panels
+    told = without_numbers(with_observer, panel)
+    assert told.startswith("law.beta is NaN in every row: with its state observer ebac has no beta")
+    assert told.replace("\n", "\\n") in with_observer.explore("law.beta").html
+    on_encoder = ebac.simulate(ebac.Scenario(seconds=0.5, observer=False), "ebac")
+    (panel,) = on_encoder.explore("law.beta").panels
+    assert without_numbers(on_encoder, panel) == ""
+    empty = on_encoder.with_column("v", np.full(len(on_encoder), np.nan))
+    (panel,) = empty.explore("v").panels
+    assert without_numbers(empty, panel) == f"v is NaN in every row:\n{empty.columns['v'].meaning}"
+
+
+TICKS = """() => {
+  const models = [...Bokeh.documents[0]._all_models.values()];
+  const {y_range, left} = models.find((model) => model.type === "Figure" || model.type === "Plot");
+  return left[0].ticker.get_ticks(y_range.start, y_range.end, y_range, 0).major.map(Math.sinh);
+}"""
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("low", "high"), [(1.3, 2.3), (3.8, 3.82), (-0.5, 0.5), (-0.02, 0.01), (12, 90), (-800, 900)]
+)
+def test_in_a_browser_an_axis_of_stiffness_has_numbers_whatever_its_range(
+    browser: Any, low: float, high: float, tmp_path: Path
+) -> None:
+    trace = ebac.simulate(ebac.Scenario(seconds=0.5, observer=False), "ebac")
+    made = trace.with_column("law.beta", 1e3 * np.linspace(low, high, len(trace)))
+    page = browser.new_page(viewport={"width": 800, "height": 400})
+    errors: list[str] = []
+    page.on("pageerror", lambda error: errors.append(str(error)))
+    made.explore("law.beta").save(tmp_path / "run.html")
+    page.goto((tmp_path / "run.html").as_uri())
+    page.wait_for_function("window.ebac_exploration")
+    page.wait_for_timeout(300)
+    ticks = page.evaluate(TICKS)
+    assert 2 <= len(ticks) <= 9
+    assert not errors

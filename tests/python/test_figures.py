@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from PIL import Image
 
 import ebac
+from ebac._util import formatting
 from ebac.faults import run_case
 from ebac.operators import Operators
 from ebac.plot import (
@@ -35,7 +36,9 @@ from ebac.plot import (
     plot_zwidth,
     save,
 )
+from ebac.plot.ablation import _text
 from ebac.plot.save import balanced, fitted, millimetres
+from ebac.plot.study import _energy
 from ebac.plot.style import BETTER, OTHER_LAWS, QUANTITIES, SAME, WORSE, colours
 from ebac.studies import MEASURES, ablation, stiffest, study, worst
 from ebac.studies.maps import stability_map
@@ -471,3 +474,81 @@ def test_a_case_of_faults_names_fault_and_law() -> None:
     assert "Simulated fault" in figure.get_suptitle()
     assert "law ebac" in figure.get_suptitle()
     check_inside(figure)
+
+
+def test_an_overview_writes_energies_with_their_unit_and_names_level() -> None:
+    laws = ["tca", "lag-compensator", "ebac"]
+    found = study(Operators.grid()[:6], laws, ["d1K10"], base=ebac.Scenario(seconds=2.0))
+    overview = dict(plot_study(found))["overview"]
+    left, right = overview.axes
+    assert "mJ" not in right.get_title()
+    assert [text.get_text().split()[-1] for text in right.texts] == ["J", "mJ", "mJ"]
+    for ax in (left, right):
+        names = ax.get_xticklabels()
+        assert [name.get_text() for name in names] == ["tca", "lag-\ncompensator", "ebac"]
+        assert {name.get_rotation() for name in names} == {0.0}
+    check_inside(overview)
+
+
+@pytest.mark.parametrize(
+    ("drawn", "text"),
+    [
+        (0.0, "0 mJ"),
+        (4e-4, "<0.001 mJ"),
+        (0.0123, "0.012 mJ"),
+        (87.4, "87 mJ"),
+        (999.4, "999 mJ"),
+        (999.6, "1.0 J"),
+        (14e3, "14.0 J"),
+        (140e3, "140 J"),
+    ],
+)
+def test_an_energy_of_a_study_is_short_and_has_its_unit(drawn: float, text: str) -> None:
+    assert _energy(drawn) == text
+
+
+def test_a_large_energy_of_an_ablation_is_in_joule() -> None:
+    assert _text(-45.908, "J") == "-45.9 J"  # its column is in mJ
+    assert _text(-5.199, "J") == "-5.2 J"
+    assert _text(-0.0123, "J") == formatting.cell(-0.0123, "J")
+    assert _text(None, "J") == "-"
+
+
+def test_the_view_of_a_world_has_the_paths_three_directions_and_what_swings(run: Run) -> None:
+    still = ebac.worlds.preset("sphere")
+    swing = ebac.worlds.Swing(amplitude_x=2e-3, amplitude_y=4e-3)
+    swings = ebac.worlds.World(ebac.worlds.Body(solid=still.bodies[0].solid, motion=swing))
+    joystick = ebac.presets.device("joystick-3")
+    trace = run("ebac", environment=swings, device=joystick, seconds=0.5)
+    view, *cuts = plot_world(swings, [trace]).axes
+    assert [line.get_color() for line in view.lines] == [colours(["ebac"])["ebac"]]
+    assert np.ptp(view.lines[0].get_xydata(), axis=0).max() > 0.5
+    arrows = len([text for text in view.texts if text.get_text() == ""])
+    assert [text.get_text() for text in view.texts if text.get_text()] == ["x", "x", "y", "z"]
+    for cut in cuts:
+        assert cut.get_legend().get_texts()[-1].get_text() == "ends of its swing"
+    alone = plot_world(still)
+    assert len([text for text in alone.axes[0].texts if text.get_text() == ""]) == arrows - 1
+    assert "ends of its swing" not in alone.axes[1].get_legend_handles_labels()[1]
+
+
+def test_walls_draw_a_moving_surface_where_it_is(run: Run) -> None:
+    wall = ebac.Wall(motion_amplitude=2e-3, motion_frequency=2.0)
+    figure = plot_walls([run("ebac", environment=wall, seconds=2.0)])
+    assert "a wall of 10 kN/m at 0 mm, swinging by 2 mm at 2 Hz;" in figure.get_suptitle()
+    for ax in (figure.axes[0], figure.axes[1]):
+        (surface,) = [line for line in ax.lines if line.get_label() == "wall surface"]
+        t, y = surface.get_xydata().T
+        assert y == pytest.approx(2 * np.sin(4 * np.pi * t))
+        assert t[0] >= ax.get_xlim()[0]
+        assert t[-1] <= ax.get_xlim()[1]
+    assert figure.axes[0].get_xlim()[1] < 0.6
+
+
+def test_walls_of_several_axes_say_which_is_shown(run: Run) -> None:
+    joystick = ebac.presets.device("joystick-3")
+    for laws in (["ebac"], ["tca", "tca-damped", "eba", "ebac"]):
+        runs = [run(law, device=joystick, seconds=1.0) for law in laws]
+        labels = {ax.get_ylabel() for ax in plot_walls(runs).axes}
+        assert {"position x [mm]", "applied force x [N]"} <= labels
+        assert "position [mm]" not in labels

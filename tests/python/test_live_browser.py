@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 
 import ebac
-from ebac.live.wasm_module import script
+from ebac.live.wasm_module import WEB, script
 
 #: A browser draws sixty frames a second by the processor.
 pytestmark = pytest.mark.slow
@@ -115,6 +115,27 @@ def test_a_refused_setting_is_named_and_the_page_goes_on(open_page: Callable[...
     page.evaluate("ebacLive.change('hand.mass', 0.15)")
     assert page.inner_text("#error") == ""
     assert not page.errors
+
+
+def test_every_axis_has_two_numbers_whatever_its_range(browser: Any) -> None:
+    code = base64.b64encode((WEB / "strips.js").read_bytes()).decode()
+    page = browser.new_page()
+    found = page.evaluate(
+        """async (code) => {
+          const { ticks } = await import(`data:text/javascript;base64,${code}`);
+          const found = [];
+          for (let range = 0.01; range < 2000; range *= 1.03) {
+            for (const place of [-1.3, -1, -0.5, -0.07, 0, 3.1]) {
+              const { values, digits } = ticks(place * range, (place + 1) * range, 2);
+              found.push([range, place, new Set(values.map((value) => value.toFixed(digits))).size]);
+            }
+          }
+          return found;
+        }""",
+        code,
+    )
+    assert len(found) > 2000
+    assert all(2 <= labels <= 5 for _, _, labels in found), [one for one in found if one[2] < 2][:5]
 
 
 @pytest.mark.parametrize(("width", "height"), [(1280, 800), (390, 844)])

@@ -11,7 +11,10 @@ from matplotlib.figure import Figure
 from matplotlib.image import imread
 
 import ebac
+from ebac._util import formatting
 from ebac.plot import COLOURS, DPI, colour, plot_columns, plot_overlay, plot_trace, plot_walls
+from ebac.plot.marks import for_law
+from ebac.plot.run import stiffness_in_motion
 from ebac.plot.save import PRINT_DPI, fitted, millimetres, save
 from ebac.plot.style import MOST_POINTS, _extremes
 
@@ -235,3 +238,47 @@ def test_a_png_is_the_picture_that_matplotlib_saves(
     with fitted(figure, None if width is None else millimetres(width) / 25.4):
         Figure.savefig(figure, theirs, dpi=DPI if width is None else PRINT_DPI)
     assert np.array_equal(imread(ours), imread(theirs))
+
+
+def test_the_panel_of_beta_names_its_bounds_and_the_stiffness_in_motion(run: Run) -> None:
+    """The dots of law.beta_max are the energy bound: far above c_h while the handle comes out."""
+    trace = run("ebac", observer=False)
+    assert stiffness_in_motion(trace) == pytest.approx(np.nanmax(trace["law.beta"]))
+    swings = run("ebac", observer=False, hand=ebac.Hand(path=[ebac.Sine(frequency=2.0)]))
+    assert stiffness_in_motion(swings) == pytest.approx(stiffness_in_motion(trace))
+    (panel,) = [ax for ax in plot_trace(trace[0.0:1.0]).axes if "beta" in ax.get_ylabel()]
+    assert [text.get_text() for text in panel.get_legend().get_texts()] == [
+        "highest that the energy bound allows, shown to 100 kN/m",
+        "lowest, shown to 100 kN/m",
+        r"$\beta$ taken",
+        "$c_h$, 3.82 kN/m",
+        "force limited",
+    ]
+    for law in ("eba", "ebac-printed"):
+        assert stiffness_in_motion(run(law, observer=False)) is None
+    assert stiffness_in_motion(run("ebac")) is None  # no beta with the observer
+
+
+@pytest.mark.parametrize(
+    ("law", "observer", "said"),
+    [
+        ("eba", True, ""),
+        ("ebac-printed", True, ""),
+        ("ebac", False, ""),
+        ("ebac", True, ", state observer"),
+        ("eba", "every-law", ", state observer"),
+    ],
+)
+def test_a_figure_of_one_law_names_the_observer_where_the_law_uses_it(
+    law: str, observer: bool | str, said: str, run: Run
+) -> None:
+    trace = run(law, observer=observer, seconds=0.5)
+    for figure in (plot_trace(trace), plot_walls([trace]), plot_columns(trace, ["x"])):
+        assert f"1 sample of delay{said}; 0.5 s" in figure.get_suptitle()
+    described = formatting.describe(trace.scenario)
+    assert f"1 sample of delay{said}; 0.5 s" in for_law(described, law)
+
+
+def test_of_a_law_that_is_not_known_a_title_says_what_the_scenario_says() -> None:
+    described = formatting.describe(ebac.Scenario())
+    assert for_law(described, "mine") == described

@@ -443,7 +443,9 @@ def test_hands_that_never_reach_the_wall_are_told_of() -> None:
 def test_the_command_notes_what_the_library_warns_of(tmp_path: Path) -> None:
     file = tmp_path / "hands.csv"
     file.write_text("m_kg,b_Ns_per_m,k_N_per_m,target_m\n0.2,5,300,-0.02\n0.2,5,300,0.04\n")
-    told = CliRunner().invoke(app, ["study", "--population", str(file), "--law", "direct", "--no-files"])
+    told = CliRunner().invoke(
+        app, ["study", "--population", str(file), "--law", "direct", "--no-files"]
+    )
     assert told.exit_code == 0
     said = " ".join(told.stderr.split())
     assert "Note: hands that rest before the wall, 1 of 2 under d1K10" in said

@@ -273,6 +273,16 @@ def test_study_and_its_figures() -> None:
     with pytest.raises(KeyError, match="no network is called 'ruff'; there are: rough"):
         plot_teleop(found, "ruff")
     assert "log beyond -1 mJ" in figure.axes[2].get_ylabel()
+    free, soft = figure.axes[4:]  # there is no transparency without a contact
+    assert not free.lines
+    assert [text.get_text() for text in free.texts] == ["no transparency:\nno contact, or no rest"]
+    assert (free.get_ylabel(), soft.get_ylabel()) == ("", "transparency")
+    assert figure.axes[2].get_xlabel() == soft.get_xlabel() == "delay each way [ms]"
+    assert list(soft.get_xticks()) == [50.0]
+    assert "side by side at each delay" in figure.get_suptitle()
+    for ax in figure.axes[2:4]:
+        drawn = [line.get_ydata() for line in ax.lines]
+        assert np.min(drawn) > ax.get_ylim()[0] + 0.1  # not on the frame
     with pytest.raises(ValueError, match=r"runs = .*: is empty"):
         plot_teleop_runs([])
 

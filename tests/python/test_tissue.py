@@ -91,7 +91,14 @@ def test_no_law_gives_out_energy_of_a_soft_material(found: Tissue) -> None:
 
 def test_its_figure_has_the_curves_and_the_laws(found: Tissue) -> None:
     figure = plot_tissue(found)
-    assert [len(ax.lines) for ax in figure.axes] == [3] * 4 + [2] * 4
+    named = [[line.get_label() for line in ax.lines] for ax in figure.axes]
+    assert [len([name for name in names if name[0] != "_"]) for names in named] == [3] * 4 + [2] * 4
+    swaying = tissue(laws=("tca-damped", "ebac"), chosen={"soft": Elastic(stiffness=1000.0)})
+    pale, *lines = plot_tissue(swaying).axes[1].lines
+    assert pale.get_alpha() < 0.5  # it would hide the others
+    assert [line.get_label() for line in lines] == ["tca-damped", "ebac"]
+    ways = [np.abs(np.diff(line.get_ydata())).sum() for line in (pale, lines[0])]
+    assert ways[1] < 0.1 * ways[0]
     alone = tissue(laws=(), chosen={"soft": HuntCrossley()})
     assert len(plot_tissue(alone).axes) == 1
 

@@ -207,7 +207,10 @@ def _environment(environment: Environment) -> str:
     damping = f" and {environment.damping:g} N s/m" if environment.damping else ""
     angle = f", turned by {degrees(environment.angle):.3g} deg" if environment.angle else ""
     place = f"{1e3 * environment.position:g} mm"
-    return f"a wall of {_kilo(environment.stiffness, 'N/m')}{damping} at {place}{angle}"
+    moves = ""
+    if swing := environment.motion_amplitude:
+        moves = f", swinging by {1e3 * swing:g} mm at {environment.motion_frequency:g} Hz"
+    return f"a wall of {_kilo(environment.stiffness, 'N/m')}{damping} at {place}{angle}{moves}"
 
 
 #: Solids that are not called by their type.

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from html import escape
 from importlib.resources import files
 from itertools import cycle
+from typing import Any
 
 import numpy as np
 from bokeh.document import Document
@@ -16,10 +17,11 @@ from bokeh.models import (
     ColumnDataSource,
     CrosshairTool,
     CustomJS,
+    CustomJSTicker,
     CustomJSTickFormatter,
     Div,
-    FixedTicker,
     HoverTool,
+    Label,
     Range1d,
     Span,
 )
@@ -29,7 +31,7 @@ from bokeh.resources import INLINE
 from ebac._util.gaps import alone
 from ebac.explore.exploration import PANEL
 from ebac.explore.pack import even, packed
-from ebac.explore.panels import Panel
+from ebac.explore.panels import Panel, without_numbers
 from ebac.explore.thin import bands
 from ebac.plot.marks import title
 from ebac.plot.style import QUANTITIES, colour
@@ -60,6 +62,8 @@ def page(trace: Trace, panels: Sequence[Panel]) -> str:
     plots, sources, decades = [], [], []
     for panel in panels:
         plot, shown = _draw(panel, trace.law, t, window)
+        if reason := without_numbers(trace, panel):
+            _write(plot, reason)
         plot.add_tools(cursor)
         plots.append(plot)
         sources += shown
@@ -79,7 +83,7 @@ def page(trace: Trace, panels: Sequence[Panel]) -> str:
             "window_": window,
             "plots": plots,
         },
-        code=files("ebac.explore").joinpath("thin.js").read_text(encoding="utf-8"),
+        code=_script("thin.js"),
     )
     window.js_on_change("start", thin)
     window.js_on_change("end", thin)
@@ -94,6 +98,18 @@ def page(trace: Trace, panels: Sequence[Panel]) -> str:
     document.add_root(column)
     document.js_on_event(DocumentReady, thin)
     return str(file_html(document, INLINE, title=repr(trace)))
+
+
+def _script(name: str) -> str:
+    return files("ebac.explore").joinpath(name).read_text(encoding="utf-8")
+
+
+def _write(plot: figure, text: str) -> None:
+    """Write into a panel without a number why it has none; Bokeh would not even draw its axes."""
+    plot.y_range = Range1d(0.0, 1.0)
+    plot.yaxis.visible = False
+    at: dict[str, Any] = {"x": 12, "y": 60, "x_units": "screen", "y_units": "screen"}
+    plot.add_layout(Label(text=text, text_font_size="10pt", text_color="#444444", **at))
 
 
 def _draw(
@@ -159,9 +175,7 @@ def _dress(plot: figure, panel: Panel) -> None:
     legend.label_text_font_size = "8.5pt"
     plot.add_layout(legend, "above")
     if panel.decades:
-        steps = [10.0**n for n in range(7)]
-        ticks = [-step for step in reversed(steps)] + [0.0] + steps
-        plot.yaxis.ticker = FixedTicker(ticks=np.arcsinh(ticks).tolist())
+        plot.yaxis.ticker = CustomJSTicker(major_code=_script("decades.js"))
         plot.yaxis.formatter = CustomJSTickFormatter(
-            code="return Number(Math.sinh(tick).toPrecision(3)).toString()"
+            code="return Number(Math.sinh(tick).toPrecision(6)).toString()"
         )

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ebac._util.formatting import QUANTITY_OF, SHOWN
+from ebac.plot.marks import acts_on_observer
 from ebac.trace import Trace
 
 #: Panels of an exploration that names no columns: a title and what it shows where the trace has it.
@@ -19,6 +20,8 @@ USUAL: tuple[tuple[str, tuple[str, ...]], ...] = (
     ("energy", ("law.energy", "law.account", "true.energy")),
     ("force limited", ("law.clamped",)),
 )
+#: What a law has on the encoder alone.
+BETAS = frozenset({"law.beta", "law.beta_min", "law.beta_max"})
 #: The letters that the axis of a panel has room for; names that are longer stand in the legend alone.
 ROOM = 20
 #: A unit that runs over decades is drawn on an asinh scale: straight to 1, logarithmic beyond.
@@ -55,6 +58,20 @@ class Panel:
     def decades(self) -> bool:
         """Whether it is drawn on an asinh scale."""
         return self.unit in DECADES
+
+
+def without_numbers(trace: Trace, shown: Panel) -> str:
+    """Return why a panel is empty, for people to read; "" where it has a number."""
+    if any(np.isfinite(values).any() for values in shown.values):
+        return ""
+    verb = "is" if len(shown.names) == 1 else "are"
+    lines = [f"{', '.join(shown.names)} {verb} NaN in every row"]
+    if any(name in BETAS for name in shown.names) and acts_on_observer(trace):
+        why = f"with its state observer {trace.law} has no beta;\nin a Scenario(observer=False) it has"
+        return f"{lines[0]}: {why}"
+    if len(shown.names) == 1:
+        lines.append(trace.columns[shown.names[0]].meaning)
+    return ":\n".join(lines)
 
 
 def usual(trace: Trace, axis: int) -> list[Panel]:

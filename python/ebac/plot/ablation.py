@@ -68,8 +68,14 @@ def _band(ax: Axes, found: Ablation, measures: Sequence[Measure], abreast: int) 
     for y, row in enumerate(rows):
         for x, measure in enumerate(measures):
             _cell(ax, x, y, row, measure.key)
-            text = formatting.cell(row.values[measure.key], measure.unit)
-            ax.text(x, y, text, ha="center", va="center", fontsize="small")
+            ax.text(
+                x,
+                y,
+                _text(row.values[measure.key], measure.unit),
+                ha="center",
+                va="center",
+                fontsize="small",
+            )
     ax.set_xlim(-0.5, abreast - 0.5)
     ax.set_ylim(len(rows) - 0.5, -0.5)
     wide = 13 if abreast == len(found.measures) else 10
@@ -81,6 +87,13 @@ def _band(ax: Axes, found: Ablation, measures: Sequence[Measure], abreast: int) 
     ax.spines[:].set_visible(False)
     for border in (0.5, 0.5 + len(found.pieces)):
         ax.hlines(border, -0.5, len(measures) - 0.5, color="black", lw=1)
+
+
+def _text(value: float | None, unit: str) -> str:
+    """Return a number in the unit of its column; an energy from 1 J on in J, as elsewhere."""
+    if unit == "J" and value is not None and abs(value) >= 1:
+        return f"{value:.1f} J"
+    return formatting.cell(value, unit)
 
 
 def _cell(ax: Axes, x: int, y: int, row: AblationRow, key: str) -> None:

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.patches import Circle
 from matplotlib.ticker import MaxNLocator
 from numpy.typing import NDArray
 
@@ -16,6 +17,8 @@ if TYPE_CHECKING:
 
 #: Before a touch, at which the camera still sees more than the wall [s].
 BEFORE = 3.0
+#: Points of a ring in the picture, and how far beyond the picture's edge it is drawn, where it is cut, in its radius.
+AROUND, BEYOND = 241, 1.2
 #: Fewer values than this are drawn one by one: they make no box.
 FEW = 5
 WALL, WAY, TARGET, LIMIT = "#c98c8c", "#0072b2", "#d55e00", "#cc0000"
@@ -88,7 +91,7 @@ def _outside(ax: Any, run: Gastroscopy) -> None:
 
 
 def _camera(ax: Axes, run: Gastroscopy, row: int) -> None:
-    """Draw rings of the wall and targets as the camera sees them: equidistant, as a wide lens."""
+    """Draw rings of the wall and targets as the camera sees them: a round picture, equidistant as of a wide lens."""
     rows = run.rows
     at = np.array([rows[k][row] for k in ("x", "y", "z")])
     ahead = np.array([rows[f"ahead_{k}"][row] for k in "xyz"])
@@ -96,26 +99,32 @@ def _camera(ax: Axes, run: Gastroscopy, row: int) -> None:
     down = np.cross(ahead, right)
     half = 0.5 * run.procedure.physician.field_of_view
     t = float(rows["t"][row])
-    rings, place = _rings(run, t), _places(run)
+    rings, place = _rings(run, t, AROUND), _places(run)
+    picture = Circle((0, 0), 1, fc="0.12", lw=0)
+    ax.add_patch(picture)
 
     def seen(points: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         own = (points - at) @ np.column_stack([right, down, ahead])
         aside = np.hypot(own[..., 0], own[..., 1])
         off = np.arctan2(aside, own[..., 2])
-        share = np.where(off < half, off / np.maximum(aside, 1e-9) / half, np.nan)
+        share = np.where(off < BEYOND * half, off / np.maximum(aside, 1e-9) / half, np.nan)
         return share * own[..., 0], share * own[..., 1]
 
     for k in np.flatnonzero(
         (place > rows["place"][row] - 0.01) & (place < rows["place"][row] + 0.2)
     )[::-1]:
         distance = max(place[k] - float(rows["place"][row]), 0.0)
-        ax.plot(*seen(rings[k]), color=WALL, lw=2.5, alpha=float(np.exp(-distance / 0.08)))
+        (ring,) = ax.plot(
+            *seen(rings[k]), color=WALL, lw=2.5, alpha=float(np.exp(-distance / 0.08))
+        )
+        ring.set_clip_path(picture)
     lumen = run.procedure.lumen
     for polyp in run.procedure.polyps():
         if abs(polyp.place - rows["place"][row]) < 0.1:
             u, v = seen(lumen.target(polyp.place, polyp.angle, t)[None])
-            ax.plot(u, v, "o", color=TARGET, ms=11)
-    ax.set_facecolor("0.12")
+            (mark,) = ax.plot(u, v, "o", color=TARGET, ms=11)
+            mark.set_clip_path(picture)
+    ax.spines[:].set_visible(False)
     ax.set_xlim(-1, 1)
     ax.set_ylim(1, -1)
     ax.set_aspect("equal")
@@ -128,6 +137,11 @@ def _forces(ax: Axes, run: Gastroscopy) -> None:
     rows = run.rows
     line(ax, rows["t"], rows["section_force"], color=WAY, lw=0.9, label="tip and bending section")
     line(ax, rows["t"], rows["tube_force"], color="0.5", lw=0.9, label="tube")
+    marks = run.procedure.lumen.landmarks()
+    if marks["end"] > marks["behind"]:  # a lumen of a user's own may have no pylorus
+        narrow = rows["t"][rows["place"] >= marks["pylorus"]]
+        if len(narrow) > 1:  # it presses until the run ends behind it
+            ax.axvspan(*narrow[[0, -1]], color="0.9", lw=0, zorder=0, label="in the pylorus")
     limit = run.procedure.lumen.patient.force_limit
     ax.axhline(limit, color=LIMIT, lw=1, ls="--", label=f"limit, {limit:g} N")
     dress(ax, "force of the wall [N]")

@@ -13,6 +13,7 @@ from matplotlib.ticker import FuncFormatter
 from ebac._util import formatting
 from ebac._util.arrays import Values
 from ebac.metrics import STILL_SWING
+from ebac.plot.marks import for_law
 from ebac.plot.style import Picture, new_figure
 
 if TYPE_CHECKING:
@@ -61,7 +62,7 @@ def plot_map(found: StabilityMap) -> Picture:
 
 def _title(found: StabilityMap) -> str:
     shares = found.scores()
-    parts = formatting.describe(found.base).split("; ")
+    parts = for_law(formatting.describe(found.base), found.law).split("; ")
     quiet, energy = shares["quiet_share"], shares["energy_share"]
     return (
         f"law {found.law}, simulated: {parts[0]}; {parts[1]}; {parts[3]}; the quantities of the axes vary\n"

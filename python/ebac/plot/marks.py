@@ -2,15 +2,22 @@
 
 from __future__ import annotations
 
+import re
+from collections.abc import Sequence
+
 from matplotlib.axes import Axes
 
 from ebac._core import Fault
 from ebac._util import formatting
+from ebac.laws import LAWS
+from ebac.metrics import observer_use
 from ebac.scenario import Scenario
 from ebac.trace import Trace
 
 #: The state of the loop in which it ramps the force to zero.
 _STOP = 3
+#: What a scenario in words says of its observer.
+_OBSERVER = ", state observer for (every law|laws made for it)"
 FAULT_COLOUR, RAMP_COLOUR = "#aa0044", "0.88"
 
 
@@ -31,11 +38,37 @@ def title(trace: Trace) -> str:
         )
     if trace.scenario is None:
         return f"{name}, {trace.origin}{end}"
-    parts = formatting.describe(trace.scenario).split("; ")
+    parts = for_laws(formatting.describe(trace.scenario), [trace]).split("; ")
     if "true.x" in trace:
         return f"{name}, {trace.origin}: {parts[0]}; {parts[1]}\n{'; '.join(parts[2:])}{end}"
     # a person's hand is not that of the scenario
     return f"{name}, {trace.origin}: {parts[0]}\n{'; '.join(parts[2:-1])}{end}"
+
+
+def acts_on_observer(trace: Trace) -> bool:
+    """Whether the law of a run acts on the estimate of a state observer."""
+    use = observer_use(trace)
+    return use is not None and use.fallback.get("off", 0.0) < 1
+
+
+def for_laws(described: str, traces: Sequence[Trace]) -> str:
+    """Return a scenario in words, of whose state observer it says which of the laws use it."""
+    if not all("est.bound" in trace for trace in traces):
+        return described  # of another program: who knows
+    users = [trace.law for trace in traces if acts_on_observer(trace)]
+    by = ""
+    if users:
+        by = ", state observer"
+        by += f" used by {', '.join(users)} only" if len(users) < len(traces) else ""
+    return re.sub(_OBSERVER, by, described)
+
+
+def for_law(described: str, law: str) -> str:
+    """Return a scenario in words for a law by its name: nothing of a state observer that it does not use."""
+    if law not in LAWS and ", state observer for every law" not in described:
+        return described  # a law of a user's: who knows
+    uses = hasattr(LAWS.get(law), "observer") or ", state observer for every law" in described
+    return re.sub(_OBSERVER, ", state observer" if uses else "", described)
 
 
 def heading(scenario: Scenario, source: str = "simulated") -> str:

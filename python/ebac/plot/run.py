@@ -39,6 +39,11 @@ ENERGIES: dict[str, tuple[str, dict[str, Any]]] = {
     "law.account": ("account of the law", {"color": "black"}),
     "true.energy": ("port energy", {}),
 }
+#: Label of each bound on beta: both follow from the largest force that the energy allows, to either side.
+BOUNDS = {
+    "law.beta_max": "highest that the energy bound allows",
+    "law.beta_min": "lowest",
+}
 #: Draws a part of a run on one axis of the device, on the scales of the whole run.
 Panel = Callable[[Axes, Trace, int, Trace], None]
 
@@ -189,7 +194,7 @@ def _span(values: Values) -> tuple[float, float]:
 def _beta(ax: Axes, trace: Trace, axis: int, whole: Trace) -> None:
     t, beta = trace["t"], trace.axis("law.beta", axis) / 1e3
     limit = limit_of([whole.axis("law.beta", axis) / 1e3])
-    for name, label in (("law.beta_max", "upper bound"), ("law.beta_min", "lower bound")):
+    for name, label in BOUNDS.items():
         if name in trace:
             bound = np.clip(trace.axis(name, axis) / 1e3, -limit, limit)
             ax.plot(
@@ -202,12 +207,33 @@ def _beta(ax: Axes, trace: Trace, axis: int, whole: Trace) -> None:
             )
     taken = np.clip(beta, -limit, limit)
     ax.plot(t, taken, ".", ms=3.5, color=colour(trace.law), label=r"$\beta$ taken")
+    if (shown := stiffness_in_motion(whole, axis)) is not None:
+        ax.axhline(
+            shown / 1e3, color="0.35", lw=1, zorder=1.9, label=f"$c_h$, {shown / 1e3:.3g} kN/m"
+        )
     if "law.clamped" in trace:
         _ticks(ax, t[trace.axis("law.clamped", axis) != 0])
     set_decades(ax, limit)
     mark_end(ax, trace, label=False)
     dress(ax, r"$\beta$ [kN/m]")
     legend(ax)
+
+
+def stiffness_in_motion(trace: Trace, axis: int = 0) -> float | None:
+    """Return the stiffness c_h [N/m] that `ebac` shows a handle in motion, if the trace contains it.
+
+    Its bound |F_d(t)| <= |F_d(t-1) + c_h dx| limits beta to c_h on one side: from above while the handle moves in, from
+    below while it comes out. The other limit turns the force round, and is mostly far away.
+    """
+    if not trace.law_repr.startswith("EBAC("):
+        return None
+    low, high = trace.axis("law.beta_min", axis), trace.axis("law.beta_max", axis)
+    known = np.isfinite(low) & np.isfinite(high)
+    if not known.any():
+        return None
+    shown = float(np.median(np.where(low > 0, low, high)[known]))
+    one_side = np.isclose(low, shown) | np.isclose(high, shown)
+    return shown if one_side[known].all() else None
 
 
 def _ticks(ax: Axes, t: Values) -> None:

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import re
+from collections.abc import Callable, Iterator
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
@@ -33,8 +34,9 @@ RING: dict[str, Any] = {"marker": "o", "ms": 4, "mew": 0.9, "mfc": "none"}
 CROSS: dict[str, Any] = {"marker": "x", "ms": 5, "mew": 1.1}
 #: How opaque the colours of a table are, and below which luminance its text is white.
 OPAQUE, DARK = 0.75, 0.45
-#: Room for a letter of a name in a table [inch], and the slope of names below it [degree].
-LETTER, SLOPE = 0.085, 30
+#: Room for a letter and for a line of a name in a table [inch], the letters of a line, and the least width of a cell
+#: [inch]; names that have no room in one column of a journal slope [degree].
+LETTER, LINE, LETTERS, CELL, SLOPE = 0.08, 0.14, 12, 1.0, 30
 
 
 def plot_study(study: Study) -> Iterator[tuple[str, Picture]]:
@@ -212,30 +214,36 @@ def _overview(study: Study, *, narrow: bool) -> Picture:
     drawn = [
         [None if r.most_drawn_J is None else 1e3 * r.most_drawn_J for r in line] for line in every
     ]
-    # The names of the laws reach below the tables and to their left, beside the names of the conditions.
-    slope = np.radians(SLOPE)
-    below, left_of = LETTER * max(map(len, laws)) * np.array([np.sin(slope), np.cos(slope)])
-    beside = max(LETTER * max(map(len, names)), left_of)
+    wrapped = [_wrapped(law) for law in laws]
+    cell = max(CELL, LETTER * max(len(line) for name in wrapped for line in name.split("\n")))
+    below = LINE * max(1 + name.count("\n") for name in wrapped)
+    beside = LETTER * max(map(len, names))
+    sloping = narrow and (5 - beside) / len(laws) < cell
+    if sloping:
+        below = LETTER * max(map(len, laws)) * np.sin(np.radians(SLOPE))
     if narrow:
-        figure = new_figure(5, 2.4 + 2 * below + 0.6 * len(names))
+        figure = new_figure(5, 2.2 + 2 * below + 0.6 * len(names))
         left, right = figure.subplots(2, 1)
     else:
-        panel = max(3.2, 0.85 * len(laws))  # a title has room
-        figure = new_figure(beside + left_of + 2 * panel, 1.4 + below + 0.24 * len(names))
+        panel = max(3.2, cell * len(laws))  # a title has room
+        figure = new_figure(beside + 2 * panel, 1.3 + below + 0.24 * len(names))
         left, right = figure.subplots(1, 2, sharey=True)
     figure.narrow = partial(_overview, study, narrow=True)
-    _table(left, good, {"cmap": "RdYlBu", "vmin": 0, "vmax": 100}, still)
+    _table(left, good, {"cmap": "RdYlBu", "vmin": 0, "vmax": 100}, _short, still, narrow=narrow)
     left.set_title("good hands [%] (exact and still, where more)", fontsize="medium")
     log: dict[str, Any] = {"cmap": "YlOrRd", "norm": LogNorm(1e-2, 1e5, clip=True)}
-    _table(right, drawn, log)
-    right.set_title("drawn in any window [mJ], k: thousands", fontsize="medium")
+    _table(right, drawn, log, _energy, narrow=narrow)
+    right.set_title("most energy drawn in any window", fontsize="medium")
     figure.suptitle(
         f"Study, simulated with {len(study.operators)} hands\n"
         f"{formatting.describe(study.scenarios[0]).split('; ')[0]}, changed as each condition says",
         fontsize="medium",
     )
     for ax in (left, right):
-        ax.set_xticks(range(len(laws)), laws, rotation=SLOPE, ha="right")
+        if sloping:
+            ax.set_xticks(range(len(laws)), laws, fontsize="small", rotation=SLOPE, ha="right")
+        else:
+            ax.set_xticks(range(len(laws)), wrapped, fontsize="small")
         ax.set_yticks(range(len(names)), names)
         ax.tick_params(length=0)
         ax.spines[:].set_visible(False)
@@ -250,17 +258,24 @@ def _table(
     ax: Axes,
     cells: list[list[float | None]],
     style: dict[str, Any],
+    words: Callable[[float], str],
     beside: list[list[float | None]] | None = None,
+    *,
+    narrow: bool,
 ) -> None:
-    """Draw a table in colours; numbers of `beside` stand in brackets where they are larger."""
+    """Draw a table in colours; numbers of `beside` stand in brackets where they are larger.
+
+    Narrow cells are high: unit and brackets stand in a line of their own.
+    """
     values = np.array([[np.nan if cell is None else cell for cell in line] for line in cells])
     shown = np.where(values == 0, 1e-9, values) if "norm" in style else values
     image = ax.imshow(shown, aspect="auto", alpha=OPAQUE, **style)
     for (row, column), value in np.ndenumerate(values):
-        known = "-" if np.isnan(value) else _short(value)
+        known = "-" if np.isnan(value) else words(value)
         more = None if beside is None else beside[row][column]
         if more is not None and more > value:
-            known += f" ({_short(more)})"
+            known += f" ({words(more)})"
+        known = known.replace(" ", "\n") if narrow else known
         red, green, blue = OPAQUE * np.array(image.to_rgba(shown[row, column])[:3]) + 1 - OPAQUE
         dark = 0.2126 * red + 0.7152 * green + 0.0722 * blue < DARK
         ax.text(
@@ -269,10 +284,25 @@ def _table(
         )  # fmt: skip
 
 
+def _wrapped(law: str) -> str:
+    """Return the name of a law in lines of few letters, broken behind hyphens and between words."""
+    lines = [""]
+    for part in re.findall(r"[^- ]+[- ]*|[- ]+", law):
+        if lines[-1] and len(lines[-1]) + len(part.rstrip()) > LETTERS:
+            lines.append("")
+        lines[-1] += part
+    return "\n".join(line.rstrip() for line in lines)
+
+
 def _short(value: float) -> str:
-    """Return a number in few characters."""
-    if value >= 1e4:
-        return f"{value / 1e3:,.0f}k"
-    if 0 < value < 1e-3:
-        return "<0.001"
+    """Return a share [%] in few characters."""
     return f"{value:.0f}" if value >= 100 else f"{value:.3g}" if value >= 0.1 else f"{value:.1g}"
+
+
+def _energy(value: float) -> str:
+    """Return an energy [mJ] in few characters, from 1 J on in J."""
+    if value >= 999.5:
+        return f"{value / 1e3:.1f} J" if value < 99.95e3 else f"{value / 1e3:.0f} J"
+    if 0 < value < 1e-3:
+        return "<0.001 mJ"
+    return f"{value:.0f} mJ" if value >= 99.5 or value == 0 else f"{value:.2g} mJ"

@@ -184,6 +184,12 @@ def landmarks(ax: Axes, trace: Trace) -> None:
     )  # a real hand is not that of a scenario
     if isinstance(scenario.environment, Wall) and scenario.environment.angle == 0:
         surface = 1e3 * scenario.environment.position
-        ax.axhline(surface, color="0.35", lw=1, label="wall surface")
+        style: dict[str, Any] = {"color": "0.35", "lw": 1, "label": "wall surface"}
+        if swing := 1e3 * scenario.environment.motion_amplitude:
+            t = trace["t"][(trace["t"] >= ax.dataLim.x0) & (trace["t"] <= ax.dataLim.x1)]
+            turns = scenario.environment.motion_frequency * t
+            ax.plot(t, surface + swing * np.sin(2 * np.pi * turns), **style)
+        else:
+            ax.axhline(surface, **style)
     if ideal is not None:
         ax.axhline(1e3 * ideal, **IDEAL, label=f"ideal rest, {1e3 * ideal:.3f} mm")

@@ -15,8 +15,8 @@ if TYPE_CHECKING:
     from ebac.worlds.force_depth import ForceDepth
 
 IN, OUT, EXACT = "#0072b2", "#d55e00", "0.7"
-#: A force that goes further than this share of its range to and fro is drawn pale: it hides the others.
-BUZZ = 20
+#: A force that goes further than this many times its range to and fro is drawn pale, and as its mean over a time [s].
+BUZZ, MEAN = 20, 0.01
 
 
 def plot_tissue(found: Tissue) -> Picture:
@@ -54,7 +54,10 @@ def plot_tissue(found: Tissue) -> Picture:
     speed = next(iter(found.curves.values())).speed
     title = f"Soft materials, pressed and let out at {1e3 * speed:g} mm/s"
     if found.rows:
-        title += "; below, simulated: a hand of 300 N/m presses and lets go"
+        title += (
+            "; below, simulated: a hand of 300 N/m presses and lets go;\n"
+            f"a force that goes to and fro is pale, its mean over {1e3 * MEAN:g} ms is a line"
+        )
     figure.suptitle(title, fontsize="medium")
     return figure
 
@@ -74,9 +77,10 @@ def _felt(ax: Axes, trace: Trace, law: str) -> None:
     depth = 1e3 * (trace["true.x"] - SURFACE)
     shown = depth > -1
     force = trace["true.f_motor"][shown]
-    way = float(np.abs(np.diff(force)).sum())  # N; a force that buzzes would hide the others
-    buzzes = way > BUZZ * float(np.ptp(force))
-    line(
-        ax, depth[shown], force, color=colour(law), lw=0.9, alpha=0.35 if buzzes else 1.0, label=law,
-        zorder=2 + 1 / (1 + way),
-    )  # fmt: skip
+    way = float(np.abs(np.diff(force)).sum())  # N
+    order, style = 2 + 1 / (1 + way), {"color": colour(law), "lw": 0.9, "label": law}
+    if way > BUZZ * float(np.ptp(force)):
+        line(ax, depth[shown], force, color=colour(law), lw=0.3, alpha=0.25, zorder=order - 1)
+        rows = max(1, round(MEAN / float(trace["t"][1] - trace["t"][0])))
+        force = np.convolve(trace["true.f_motor"], np.full(rows, 1 / rows), "same")[shown]
+    line(ax, depth[shown], force, zorder=order, **style)

@@ -12,8 +12,8 @@ from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 
 from ebac._util.arrays import Values
-from ebac.metrics import EXACT_COUNTS, TAIL_SHARE, allowed_deviation, ideal_rest, observer_use
-from ebac.plot.marks import fault_name, heading, mark_end
+from ebac.metrics import EXACT_COUNTS, TAIL_SHARE, allowed_deviation, ideal_rest
+from ebac.plot.marks import fault_name, for_laws, heading, mark_end
 from ebac.plot.style import (
     IDEAL,
     Picture,
@@ -77,13 +77,7 @@ def _draw(traces: Sequence[Trace], *, narrow: bool) -> Picture:
 
 def _heading(traces: Sequence[Trace], scenario: Scenario) -> str:
     """Return device, hand, wall and time; with a state observer, which of the laws use it."""
-    uses = {trace.law: observer_use(trace) for trace in traces}
-    users = [law for law, use in uses.items() if use is not None and use.fallback.get("off", 0) < 1]
-    text = heading(scenario, traces[0].origin)
-    if len(users) == len(traces):
-        return text
-    by = f", state observer used by {', '.join(users)} only" if users else ""
-    return text.replace(", state observer for laws made for it", by)
+    return for_laws(heading(scenario, traces[0].origin), traces)
 
 
 def _together(
@@ -105,7 +99,7 @@ def _together(
             if row != "beta":
                 _lines(axes[f"{row} end"], row, end, label="_")
     for row in rows:
-        dress(axes[row], ROWS[row])
+        dress(axes[row], _named(row, traces[0]))
     for row in ("x", "f"):
         dress(axes[f"{row} end"], "")
         axes[f"{row} end"].sharey(axes[row])
@@ -156,7 +150,7 @@ def _apart(
             left = column == 0 or (not _has_beta(band[column - 1]) and row == "beta")
             first.setdefault(row, ax)
             _lines(ax, row, _parts(trace, contact)[0], label="_")
-            dress(ax, ROWS[row] if left else "")
+            dress(ax, _named(row, trace) if left else "")
             if row == "x":
                 landmarks(ax, trace)
                 ax.set_title(_label(trace), color=colour(trace.law), fontweight="bold")
@@ -169,7 +163,7 @@ def _apart(
         left = "beta" not in first
         first.setdefault("beta", ax)
         _lines(ax, "beta", _parts(trace, contact)[0], label="_")
-        dress(ax, ROWS["beta"] if left else "")
+        dress(ax, _named("beta", trace) if left else "")
         ax.tick_params(labelleft=left)
         ax.set_title(_label(trace), color=colour(trace.law), fontweight="bold")
         ax.set_xlabel("time [s]")
@@ -177,6 +171,11 @@ def _apart(
     if marks:
         figure_legend(figure, list(marks.values()), list(marks))
     return figure, figure.add_subplot(grid[-1, : abreast - len(beside)]) if near else None
+
+
+def _named(row: str, trace: Trace) -> str:
+    """Return the label of a row of panels; on a device of several axes, that it shows the first."""
+    return ROWS[row] if trace.axes == 1 else ROWS[row].replace(" [", " x [")
 
 
 def _marks(ax: Axes) -> dict[str, Artist]:
@@ -262,7 +261,8 @@ def _near(ax: Axes, traces: Sequence[Trace], ideal: float, *, named: bool) -> No
             away.append(trace.law)
         else:
             line(ax, *offset, color=colour(trace.law), lw=1.2, label=trace.law if named else "_")
-    dress(ax, "beyond the\nideal rest [mm]")
+    along = "" if traces[0].axes == 1 else " x"
+    dress(ax, f"beyond the\nideal rest{along} [mm]")
     ax.set_xlabel("time [s]")
     if away:
         names = fill(f"off this scale: {', '.join(away)}", 60)

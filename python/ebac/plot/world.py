@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -15,7 +16,7 @@ from ebac._util.arguments import require
 from ebac._util.arrays import Values
 from ebac.plot.style import Picture, colour, dress, legend, new_figure
 from ebac.trace import Trace
-from ebac.worlds import World, distance
+from ebac.worlds import Body, World, distance
 
 #: Half of the side of what is shown [m].
 HALF = 0.05
@@ -30,6 +31,8 @@ STEPS, NEAR = 600, 2e-6
 #: A path that is shorter is shown once more, in a frame of its own, and how much about it [m].
 SHORT, AROUND = 0.01, 1e-3
 BODY, SAWN, INSIDE = np.array([0.72, 0.77, 0.83]), np.array([0.6, 0.64, 0.69]), "#c9d3df"
+#: What shows that a body moves.
+MOVES = "#8b4a00"
 
 
 def plot_world(world: World, traces: Sequence[Trace] = ()) -> Picture:
@@ -38,9 +41,9 @@ def plot_world(world: World, traces: Sequence[Trace] = ()) -> Picture:
     Parameters
     ----------
     world : World
-        At the time 0; what moves is drawn where it begins.
+        What moves is drawn in the middle of its swing; in the cuts, dashed, also at both ends.
     traces : sequence of Trace
-        Runs whose paths are drawn into the cuts, one colour per law.
+        Runs whose paths are drawn, one colour per law.
 
     Returns
     -------
@@ -50,7 +53,7 @@ def plot_world(world: World, traces: Sequence[Trace] = ()) -> Picture:
     directions = (1, 2) if any(trace.axes > 2 for trace in traces) else (1,)
     figure = new_figure(5.5 + 5.5 * len(directions), 4.9)
     view, *cuts = figure.subplots(1, 1 + len(directions))
-    _view(view, world)
+    _view(view, world, traces)
     for cut, across in zip(cuts, directions, strict=True):
         _cut(cut, world, traces, across)
     source = "simulated: " if traces else ""
@@ -69,7 +72,7 @@ def nearest(world: World, points: Values) -> tuple[Values, Values]:
     return best, out
 
 
-def _view(ax: Axes, world: World) -> None:
+def _view(ax: Axes, world: World, traces: Sequence[Trace]) -> None:
     """Draw what parallel rays meet; what hides the handle is cut open at z = 0."""
     forward = -EYE / np.linalg.norm(EYE)
     right = np.cross(forward, [0.0, 0.0, 1.0])
@@ -98,13 +101,46 @@ def _view(ax: Axes, world: World) -> None:
         extent=tuple(size),
         interpolation="bilinear",
     )
-    tail = float(-25 * right[0]), float(-25 * up[0])  # 25 mm before the origin, where it comes in
-    ax.annotate("", (0, 0), tail, arrowprops={"arrowstyle": "-|>", "color": "black", "lw": 1.6})
+    to_view = 1e3 * np.stack([right, up])
+    for trace in traces:  # on top of what hides it
+        ax.plot(*(to_view @ _places(trace).T), color=colour(trace.law), lw=1.0)
+    for body in world.bodies:
+        if (end := to_view @ _swing(body)).any():
+            _arrow(ax, -end, end, style="<|-|>", shade=MOVES)
+    tail = to_view @ [-0.025, 0, 0]
+    _arrow(ax, tail, (0, 0))  # where it comes in
     ax.text(tail[0], tail[1] - 2, "x", ha="right", va="top")
+    ax.set_xlim(*size[:2])
+    ax.set_ylim(*size[2:])
+    _frame(ax, to_view)
     ax.set_title("from the left, in front and above", fontsize="medium")
     dress(ax, "[mm]")
     ax.set_xlabel("[mm]")
     ax.grid(visible=False)
+
+
+def _arrow(
+    ax: Axes, tail: Values | Sequence[float], head: Values | Sequence[float],
+    *, style: str = "-|>", shade: str = "black",
+) -> None:  # fmt: skip
+    arrow = {"arrowstyle": style, "color": shade, "lw": 1.6, "shrinkA": 0, "shrinkB": 0}
+    ax.annotate("", (head[0], head[1]), (tail[0], tail[1]), arrowprops=arrow)
+
+
+def _frame(ax: Axes, to_view: Values) -> None:
+    """Draw the three directions in the lower right, each 12 mm long."""
+    corner = np.array([42.0, -50.0])
+    for name, unit in zip("xyz", np.eye(3), strict=True):
+        tip = to_view @ (0.012 * unit)
+        _arrow(ax, corner, corner + tip)
+        x, y = corner + 1.35 * tip
+        ax.text(x, y, name, ha="center", va="center", fontsize="small")
+
+
+def _swing(body: Body) -> Values:
+    """Return how far a body swings to each side [m]."""
+    motion = body.motion
+    return np.array([motion.amplitude_x, motion.amplitude_y, motion.amplitude_z])
 
 
 def _hidden(world: World, forward: Values) -> bool:
@@ -142,16 +178,17 @@ def _met(
 def _cut(ax: Axes, world: World, traces: Sequence[Trace], up: int) -> None:
     """Draw the plane of x and y (`up` 1) or z (2)."""
     _section(ax, world, up, (0.0, 0.0), HALF)
+    moves = _ends(ax, world, up)
     paths = [_path(trace, up) for trace in traces]
     for trace, path in zip(traces, paths, strict=True):
         label = f"handle under {trace.law}" if trace.law else "handle"
         ax.plot(*1e3 * path, color=colour(trace.law), lw=1.2, label=label)
     ax.plot([], [], "s", color=INSIDE, mec="black", ms=8, label="body")
+    if moves:
+        ax.plot([], [], color=MOVES, ls="--", lw=1.2, label="ends of its swing")
     if not traces:
         ax.plot([], [], color="black", marker=">", lw=1.6, label="motion along x")
-        ax.annotate(
-            "", (0, 0), (-25, 0), arrowprops={"arrowstyle": "-|>", "color": "black", "lw": 1.6}
-        )
+        _arrow(ax, (-25, 0), (0, 0))
     ax.set_aspect("equal")
     ax.text(0.98, 0.98, f"cut at {'zy'[up - 1]} = 0", ha="right", va="top", transform=ax.transAxes)
     dress(ax, f"{'yz'[up - 1]} [mm]")
@@ -174,11 +211,30 @@ def _section(
     ax.contour(1e3 * x, 1e3 * y, field, levels=[0], colors="black", linewidths=1.0)
 
 
+def _ends(ax: Axes, world: World, up: int) -> bool:
+    """Draw the outlines of bodies that swing at both ends of it; return whether there are any."""
+    u = np.linspace(-HALF, HALF, PIXELS // 2)
+    x, y = np.meshgrid(u, u)
+    points = np.zeros((x.size, 3))
+    points[:, 0], points[:, up] = x.ravel(), y.ravel()
+    moving = [body for body in world.bodies if _swing(body).any()]
+    for body in moving:
+        for end in (_swing(body), -_swing(body)):
+            field = 1e3 * distance(body.solid, points - end)[0].reshape(x.shape)
+            style: Any = {"colors": MOVES, "linewidths": 1.0, "linestyles": "--"}
+            ax.contour(1e3 * x, 1e3 * y, field, levels=[0], **style)
+    return bool(moving)
+
+
+def _places(trace: Trace) -> Values:
+    """Return where the handle is [m], shape (rows, 3)."""
+    places = trace["true.x" if "true.x" in trace else "x"].reshape(len(trace), -1)
+    return np.pad(places, ((0, 0), (0, 3 - places.shape[1])))
+
+
 def _path(trace: Trace, up: int) -> Values:
     """Return the way of the handle in a plane [m], shape (2, rows)."""
-    places = trace["true.x" if "true.x" in trace else "x"].reshape(len(trace), -1)
-    across = places[:, up] if trace.axes > up else np.zeros(len(trace))
-    return np.stack([places[:, 0], across])
+    return _places(trace)[:, [0, up]].T
 
 
 def _close(ax: Axes, world: World, traces: Sequence[Trace], paths: list[Values], up: int) -> None:

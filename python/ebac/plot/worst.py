@@ -8,6 +8,7 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from ebac._util import formatting
+from ebac.plot.marks import for_law
 from ebac.plot.style import QUANTITIES, Picture, colour, dress, legend, line, new_figure
 
 if TYPE_CHECKING:
@@ -72,7 +73,7 @@ def _title(found: Worst, hand: WorstHand) -> str:
         f"{p.name} {formatting.quantity(hand.values[p.name], p.unit)}"
         for p in hand.family.parameters
     )
-    device, _, wall, timing, *_ = formatting.describe(hand.scenario).split("; ")
+    device, _, wall, timing, *_ = for_law(formatting.describe(hand.scenario), found.law).split("; ")
     world = f"{device}; {wall}; {timing}"
     quick = found.pull_rate
     if quick is not None:

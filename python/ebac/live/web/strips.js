@@ -14,13 +14,15 @@ export function fitted(canvas) {
   return { g, width, height };
 }
 
-/** Steps of 1, 2 or 5 that give about `count` lines between two values. */
-function ticks(low, high, count) {
+/** Steps of 1, 2 or 5 that give about `count` lines between two values, at least two. */
+export function ticks(low, high, count) {
   const raw = (high - low) / count;
   const power = 10 ** Math.floor(Math.log10(raw));
-  const step = [1, 2, 5, 10].map((n) => n * power).find((s) => s >= raw);
+  const steps = [10, 5, 2, 1, 0.5].map((n) => n * power);
+  const first = (step) => Math.ceil(low / step), last = (step) => Math.floor(high / step);
+  const step = steps.findLast((one) => one >= raw && last(one) > first(one)) ?? steps.find((one) => last(one) > first(one));
   const found = [];
-  for (let n = Math.ceil(low / step); n * step <= high; ++n) found.push(n * step);
+  for (let n = first(step); n <= last(step); ++n) found.push(n * step);
   return { values: found, digits: Math.max(0, -Math.floor(Math.log10(step) + 1e-9)) };
 }
 
