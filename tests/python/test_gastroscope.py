@@ -17,7 +17,7 @@ from typer.testing import CliRunner
 from ebac import Trace, gastroscope, logs
 from ebac.cli import app
 from ebac.gastroscope import Lumen, Master, Patient, Procedure, Scope, Slave, camera
-from ebac.plot import plot_gastroscopy_study
+from ebac.plot import plot_gastroscopy, plot_gastroscopy_study
 from ebac.worlds import Cavity, Tube
 
 bends = st.floats(-2.5, 2.5)
@@ -82,9 +82,30 @@ def test_a_wall_at_rest_gives_back_what_it_took(
 
 
 def test_a_motor_pushes_no_harder_than_it_can() -> None:
-    slave = Slave(Scope(most_push=2.0), Lumen(STILL), 0.2)
-    pushes = [slave.step(0.5)[0] for _ in range(3000)]
-    np.testing.assert_allclose(pushes[-500:], 2.0, atol=1e-6)  # of half a metre that it cannot go
+    slave = Slave(lumen=Lumen(STILL), start=0.65)
+    pushes = [slave.step(1.5)[0] for _ in range(10000)]  # straight, it does not pass the pylorus
+    assert max(pushes) < 15 + 1e-6
+    np.testing.assert_allclose(pushes[-500:], Scope().most_push, atol=1e-6)
+
+
+@pytest.mark.parametrize("start", [0.15, 0.2, 0.25, 0.3])
+def test_a_procedure_begins_at_rest_in_the_wall(start: float) -> None:
+    """The section lay in the wall with up to 54 N."""
+    run = gastroscope.gastroscopy("direct", Procedure(start=start, seconds=0.05), every=1)
+    assert run.findings["perforations"] == 0
+    np.testing.assert_allclose(run.rows["section_force"], run.rows["section_force"][0], atol=0.2)
+
+
+@pytest.mark.parametrize("damping", [2.0, 4.0, 10.0])
+def test_a_wall_and_motors_at_rest_push_with_one_force(damping: float) -> None:
+    patient = Patient(breathing=0, peristalsis=0, antral_depth=0, damping=damping)
+    slave = Slave(lumen=Lumen(patient), start=0.2)
+    base = slave.state.inserted - 0.082
+    forces = []
+    for i in range(8000):
+        slave.step(base, 0.6 * min(1, i / 4000))
+        forces.append(slave.state.section_force)
+    assert 4 < min(forces[-1000:]) < max(forces[-1000:]) < min(forces[-1000:]) + 0.1
 
 
 def test_tendons_have_slack_that_a_bend_crosses_first() -> None:
@@ -157,6 +178,38 @@ def test_every_mapping_advances(insertion: int, by_rate: bool) -> None:
     run = gastroscope.gastroscopy("direct", replace(SHORT, master=master))
     assert run.findings["fault"] == 0
     assert run.rows["inserted"][-1] > run.rows["inserted"][0] + 0.01
+
+
+def test_the_camera_draws_whole_rings_in_a_round_picture() -> None:
+    run = gastroscope.gastroscopy("direct", replace(SHORT, seconds=3.0))
+    figure = plot_gastroscopy(run)
+    cameras = [ax for ax in figure.axes if ax.get_title().startswith("camera at")]
+    assert len(cameras) == 2
+    for ax in cameras:
+        rings = [line for line in ax.lines if line.get_linestyle() == "-"]
+        assert len(rings) > 5
+        for ring in rings:
+            assert ring.get_clip_path() is not None
+            u, v = ring.get_data()
+            steps = np.hypot(np.diff(u), np.diff(v))
+            assert np.nanmax(steps, initial=0.0) < 0.1  # no chord
+            cut = np.flatnonzero(np.isnan(u[1:]) != np.isnan(u[:-1]))
+            at_cut = np.fmax(np.hypot(u, v)[cut], np.hypot(u, v)[cut + 1])
+            assert (at_cut > 1).all()  # beyond the edge of the picture
+
+
+def test_the_time_in_the_pylorus_is_marked() -> None:
+    run = gastroscope.gastroscopy("direct", SHORT)
+    assert "in the pylorus" not in labels_of(run)
+    rows = {name: values.copy() for name, values in run.rows.items()}
+    rows["place"][-50:] = run.procedure.lumen.landmarks()["pylorus"] + 1e-3
+    assert "in the pylorus" in labels_of(replace(run, rows=rows))
+
+
+def labels_of(run: gastroscope.Gastroscopy) -> list[str]:
+    """Return what the legend of the panel of forces says."""
+    legend = plot_gastroscopy(run).axes[-1].get_legend()
+    return [text.get_text() for text in legend.get_texts()]
 
 
 def test_a_study_pairs_physicians_and_does_not_depend_on_threads() -> None:

@@ -139,7 +139,7 @@ struct Navigation::Parts {
     sample.axes = setup.device.axes();
   }
 
-  double base() const { return slave.inserted() - procedure.scope.section - procedure.scope.tip; }
+  double base() const { return slave.insertion(); }
   std::size_t late(const Setup& setup) const {
     return static_cast<std::size_t>(std::lround(procedure.master.delay / setup.timing.dt));
   }

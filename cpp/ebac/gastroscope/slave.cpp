@@ -7,65 +7,110 @@
 namespace ebac::gastroscope {
 
 Slave::Slave(const ScopeParams& params, const Lumen& lumen, double start)
-    : params_(checked(params, "Scope")),
-      lumen_(&lumen),
-      tube_(lumen),
-      base_(std::max(0.0, start - params.section - params.tip)) {
-  insert_.at = base_;
-  // It lies in the lumen as in one that pushes it nowhere: the tube comes to rest before the start.
-  double s = 0;
-  while (s <= base_) {
-    tube_.reach(s);
-    for (int i = 0; i < 40; ++i) {
-      tube_.relax(params_.flexural_rigidity, 0.5 * params_.diameter, 0, {}, {}, motion_, 0.01);
-    }
-    s += 0.5 * InsertionTube::kStep;
-  }
-  at_ = tube_.reach(base_);
-  for (Along& hint : hint_) hint.station = static_cast<int>(base_ / 5e-3);
-  meet(0);
+    : params_(checked(params, "Scope")), lumen_(&lumen), tube_(lumen) {
+  settle(std::max(0.0, start - params.section - params.tip));
 }
 
-/// The wall at the points of the section: a spring and a damper, which never pull.
-Slave::Load Slave::meet(double dt) EBAC_RT {
-  Load load;
-  const double stiffness = lumen_->params().stiffness, damping = lumen_->params().damping;
-  section_force_ = 0;
+/// It lies in the patient as if it had been advanced slowly, with straight tendons.
+void Slave::settle(double base) EBAC_RT {
+  constexpr double kAdvance = 0.01;  // m
+  const auto wait = [&](int times) EBAC_RT {
+    for (int i = 0; i < times; ++i) {
+      at_ = tube_.reach(base_);
+      look();
+      advance(kTubeEvery);
+      lead(kTubeEvery);
+    }
+  };
+  for (double s = 0; s < base; s += kAdvance) {
+    base_ = insert_.at = s;
+    wait(40);
+  }
+  base_ = insert_.at = base;
+  wait(1000);
+  at_ = tube_.reach(base_);
+  look();
+  since_tube_ = kTubeEvery;
+}
+
+/// The points of the section at the wall.
+void Slave::look() EBAC_RT {
   for (std::size_t i = 0; i < kPoints; ++i) {
     const bool tip = i + 1 == kPoints;
     const double u = static_cast<double>(i + 1) / static_cast<double>(kPoints);
     const double stiff_end = tip ? params_.tip : 0.0;
     const Bend own{u * bend_.x, u * bend_.y};
     const SectionPoint point = camera_of(own, u * params_.section, stiff_end);
-    const Vec at = at_.at + at_.frame.out(point.at);
+    Touch& touch = touch_[i];
+    touch.arm = at_.frame.out(point.at);
+    const Vec at = at_.at + touch.arm;
     const WallNear wall = lumen_->near(at, 0.5 * params_.diameter, motion_, hint_[i]);
-    const double before = depth_[i];
-    depth_[i] = wall.depth;
+    touch.depth = wall.depth;
+    touch.way = wall.way;
+    touch.moves = wall.moves;
+    const Vec inside = at_.frame.in(wall.way);
+    const CameraJacobian j = jacobian_of(own, u * params_.section, stiff_end);
+    const double turns = dot(touch.arm, at_.frame.z) * dot(wall.way, at_.turns) -
+                         dot(touch.arm, at_.turns) * inside.z;
+    const Vec bag = -wall.moves * wall.way;
+    touch.per = {u * dot(j[2], inside),
+                 u * dot(j[3], inside),
+                 dot(wall.way, at_.along) + turns,
+                 bag.x,
+                 bag.y,
+                 bag.z};
     if (tip) {
       const Frame& c = point.camera;
       camera_ = {at, {at_.frame.out(c.x), at_.frame.out(c.y), at_.frame.out(c.z)}};
       place_ = wall.s;
-      tip_force_ = 0;
     }
-    if (!(wall.depth > 0)) continue;
-    const double rate = dt > 0 ? (wall.depth - std::max(before, 0.0)) / dt : 0.0;
-    const double push = std::max(0.0, stiffness * wall.depth + damping * rate);
-    const Vec force = -push * wall.way;
-    const Vec inside = at_.frame.in(force);
-    const CameraJacobian j = jacobian_of(own, u * params_.section, stiff_end);
-    load.axial -= inside.z;
-    load.x -= u * dot(j[2], inside);
-    load.y -= u * dot(j[3], inside);
-    load.stiffness += stiffness;
-    load.force += force;
-    load.moment += cross(at - at_.at, force);
-    load.on_bag -= wall.moves * force;
-    const double size = norm(force);
-    load.size += size;
-    section_force_ = std::max(section_force_, size);
-    if (tip) tip_force_ = size;
   }
-  return load;
+}
+
+double Slave::Balance::step(std::size_t i) const EBAC_RT {
+  double left = force[i] - wall[i];
+  if (i == 2) left = std::copysign(std::max(std::abs(left) - rub, 0.0), left);
+  return left / holds[i];
+}
+
+/// The wall at the points of the section: a spring and a damper, which never pull, as they are at
+/// the end of the step. Each force in turn is given what the others leave, until none changes; what
+/// sticks by friction is taken as free there, which only makes it slower.
+void Slave::press(Balance& balance, double dt) EBAC_RT {
+  constexpr int kMost = 60;
+  constexpr double kSame = 1e-10;  // N
+  const double damping = lumen_->params().damping / dt;
+  const double stiffness = lumen_->params().stiffness + damping;
+  const auto put = [&](const Touch& touch, double force) EBAC_RT {
+    for (std::size_t k = 0; k < kMoved; ++k) balance.wall[k] += force * touch.per[k];
+  };
+  std::array<double, kPoints> gives{};
+  for (std::size_t i = 0; i < kPoints; ++i) {
+    const Touch& touch = touch_[i];
+    gives[i] = 1;
+    for (std::size_t k = 0; k < kMoved; ++k) {
+      gives[i] += stiffness * touch.per[k] * touch.per[k] / balance.holds[k];
+    }
+    put(touch, touch.force);
+  }
+  const auto ends = [&](const Touch& touch) EBAC_RT {
+    double depth = touch.depth;
+    for (std::size_t k = 0; k < kMoved; ++k) depth += touch.per[k] * balance.step(k);
+    return depth;
+  };
+  for (int round = 0; round < kMost; ++round) {
+    double change = 0;
+    for (std::size_t i = 0; i < kPoints; ++i) {
+      Touch& touch = touch_[i];
+      const double wanted = stiffness * ends(touch) - damping * std::max(touch.before, 0.0);
+      const double force = std::max(0.0, touch.force + (wanted - touch.force) / gives[i]);
+      put(touch, force - touch.force);
+      change = std::max(change, std::abs(force - touch.force));
+      touch.force = force;
+    }
+    if (change < kSame) break;
+  }
+  for (Touch& touch : touch_) touch.before = ends(touch);
 }
 
 void Slave::drive(const Command& command, double dt) EBAC_RT {
@@ -88,26 +133,51 @@ void Slave::pull() EBAC_RT {
              tendon_y_.follow(motor_y_.at, p.backlash, p.hysteresis, p.hysteresis_width)};
 }
 
-/// Bends and insertion towards rest, each as a spring and a damper; the wall's stiffness is in the
-/// step, so that no wall makes it unstable.
-void Slave::advance(const Load& load, double dt) EBAC_RT {
+/// Bends, insertion and bag towards rest, each as a spring and a damper. The wall's stiffness and
+/// damping are in the step, so that no wall makes it unstable.
+void Slave::advance(double dt) EBAC_RT {
   const ScopeParams& p = params_;
-  const double reach = p.section + p.tip;
-  const double hold = p.bend_damping + dt * (p.bend_stiffness + load.stiffness * reach * reach);
-  bend_.x += dt * (p.bend_stiffness * (pulled_.x - bend_.x) - load.x) / hold;
-  bend_.y += dt * (p.bend_stiffness * (pulled_.y - bend_.y) - load.y) / hold;
-
-  const double pressed = load.size + tube_.all_forces();
-  const double rub = p.friction * pressed;
-  const double pull = p.axial_stiffness * (insert_.at - base_) - load.axial;
-  const double moving = std::copysign(std::max(std::abs(pull) - rub, 0.0), pull);
-  base_ += dt * moving / (p.axial_damping + dt * (p.axial_stiffness + load.stiffness));
-  base_ = std::max(base_, 0.0);
-
   const PatientParams& patient = lumen_->params();
-  const Vec on_bag = load.on_bag + tube_on_bag_ - patient.bag_stiffness * motion_.bag;
-  const double gives = patient.bag_damping + dt * (patient.bag_stiffness + load.stiffness);
-  motion_.bag += (dt / gives) * on_bag;
+  const Vec tube = tube_on_bag_ - tube_.holds_bag() * (motion_.bag - bag_then_);
+  const Vec on_bag = tube - patient.bag_stiffness * motion_.bag;
+  const double bends = p.bend_damping / dt + p.bend_stiffness;
+  const double gives = patient.bag_damping / dt + patient.bag_stiffness + tube_.holds_bag();
+  Balance balance{
+      .force = {p.bend_stiffness * (pulled_.x - bend_.x), p.bend_stiffness * (pulled_.y - bend_.y),
+                p.axial_stiffness * (insert_.at - base_), on_bag.x, on_bag.y, on_bag.z},
+      .holds = {bends, bends, p.axial_damping / dt + p.axial_stiffness, gives, gives, gives},
+      .rub = p.friction * (pressed_ + tube_.all_forces())};
+  press(balance, dt);
+  bend_.x += balance.step(0);
+  bend_.y += balance.step(1);
+  base_ = std::max(base_ + balance.step(2), 0.0);
+  motion_.bag += {balance.step(3), balance.step(4), balance.step(5)};
+  for (std::size_t i = 0; i < resists_.size(); ++i) resists_[i] = balance.wall[i];
+  pressed_ = section_force_ = 0;
+  for (const Touch& touch : touch_) {
+    tip_force_ = touch.force * norm(touch.way);
+    pressed_ += tip_force_;
+    section_force_ = std::max(section_force_, tip_force_);
+  }
+}
+
+/// The tube, over `dt`. It gets the springs of the wall at the section, whose dampers are in its own
+/// step: with their force of the last tick it would be thrown from wall to wall.
+void Slave::lead(double dt) EBAC_RT {
+  const PatientParams& patient = lumen_->params();
+  std::array<InsertionTube::Pressed, kPoints> pressed;
+  for (std::size_t i = 0; i < kPoints; ++i) {
+    const Touch& touch = touch_[i];
+    const double spring = patient.stiffness * std::max(touch.before, 0.0);
+    pressed[i] = {.arm = touch.arm,
+                  .way = touch.way,
+                  .force = std::min(touch.force, spring),
+                  .stiffness = patient.stiffness + patient.damping / dt};
+  }
+  tube_.relax(params_.flexural_rigidity, 0.5 * params_.diameter, pressed, motion_, dt);
+  tube_on_bag_ = tube_.on_bag();
+  bag_then_ = motion_.bag;
+  since_tube_ = 0;
 }
 
 Answer Slave::step(const Command& command, double t, double dt) EBAC_RT {
@@ -126,23 +196,19 @@ Answer Slave::carry(const Command& motors, double t, double dt) EBAC_RT {
 
 Answer Slave::move(double t, double dt) EBAC_RT {
   motion_.t = t;
-  at_ = tube_.reach(base_, 1 - static_cast<double>(until_tube_) / kTubeEvery);
+  since_tube_ += dt;
+  at_ = tube_.reach(base_, std::min(since_tube_ / kTubeEvery, 1.0));
   at_.frame = rolled(at_.frame, rotate_.at);
-  const Load load = meet(dt);
-  advance(load, dt);
-  if (--until_tube_ <= 0) {
-    until_tube_ = kTubeEvery;
-    tube_.relax(params_.flexural_rigidity, 0.5 * params_.diameter, params_.section + params_.tip,
-                load.force, load.moment, motion_, kTubeEvery * dt);
-    tube_on_bag_ = tube_.on_bag();
-  }
-  return {params_.axial_stiffness * (insert_.at - base_), load.x, load.y};
+  look();
+  if (dt > 0) advance(dt);
+  if (since_tube_ > kTubeEvery - 0.5 * dt) lead(std::max(kTubeEvery, dt));
+  return {params_.axial_stiffness * (insert_.at - base_), resists_[0], resists_[1]};
 }
 
 double Slave::stored() const EBAC_RT {
   double energy = 0;
-  for (const double depth : depth_) {
-    const double pressed = std::max(depth, 0.0);
+  for (const Touch& touch : touch_) {
+    const double pressed = std::max(touch.before, 0.0);
     energy += 0.5 * lumen_->params().stiffness * pressed * pressed;
   }
   return energy;

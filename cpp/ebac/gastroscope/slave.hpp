@@ -13,8 +13,8 @@ namespace ebac::gastroscope {
 /// The gastroscope in the patient.
 class Slave {
  public:
-  static constexpr std::size_t kPoints =
-      3;  // where the bending section meets the wall; the tip last
+  /// Where the bending section meets the wall; the tip last.
+  static constexpr std::size_t kPoints = 3;
 
   /// The camera `start` [m] behind the teeth. Keeps a pointer to the lumen.
   Slave(const ScopeParams& params, const Lumen& lumen, double start);
@@ -45,23 +45,42 @@ class Slave {
   double section_force() const EBAC_RT { return section_force_; }
   double tube_force() const EBAC_RT { return tube_.most_force(); }
   /// Gap between the camera's edge and the wall [m]; negative in it.
-  double gap() const EBAC_RT { return -depth_.back(); }
+  double gap() const EBAC_RT { return -touch_.back().depth; }
   /// Energy the patient's wall stores where the section presses it [J].
   double stored() const EBAC_RT;
 
  private:
-  struct Load {
-    double axial = 0, x = 0, y = 0, stiffness = 0;
-    Vec force{}, moment{}, on_bag{};
-    double size = 0;
+  // What the wall moves: both bends, the base along the tube, the stomach as a bag.
+  static constexpr std::size_t kMoved = 6;
+  using Moved = std::array<double, kMoved>;
+
+  /// A point of the section at the wall.
+  struct Touch {
+    double depth = 0;   // m; negative: free
+    double before = 0;  // m, at the end of the last tick
+    double force = 0;   // N per `way`
+    double moves = 0;   // share of the bag's displacement
+    Vec arm{}, way{};
+    Moved per{};  // how the depth changes
   };
-  Load meet(double dt) EBAC_RT;
+  /// What moves in a step: (damping/dt + stiffness) step = force - wall, the base with friction.
+  struct Balance {
+    Moved force{}, holds{}, wall{};
+    double rub = 0;  // N
+
+    double step(std::size_t i) const EBAC_RT;
+  };
+
+  void look() EBAC_RT;
+  void press(Balance& balance, double dt) EBAC_RT;
+  void advance(double dt) EBAC_RT;
+  void lead(double dt) EBAC_RT;
+  void settle(double base) EBAC_RT;
   void drive(const Command& command, double dt) EBAC_RT;
   void pull() EBAC_RT;
   Answer move(double t, double dt) EBAC_RT;
-  void advance(const Load& load, double dt) EBAC_RT;
 
-  static constexpr int kTubeEvery = 10;  // ticks from one look at the tube to the next
+  static constexpr double kTubeEvery = 0.01;  // s, from one look at the tube to the next
 
   ScopeParams params_;
   const Lumen* lumen_;
@@ -70,15 +89,17 @@ class Slave {
   MotorAxis insert_, rotate_, motor_x_, motor_y_;
   Tendon tendon_x_, tendon_y_;
   Bend pulled_{}, bend_{};
-  double base_;  // m, of the section behind the teeth
+  double base_ = 0;  // m, of the section behind the teeth
   LumenMotion motion_{};
   SectionPoint camera_{};
   double place_ = 0;
   std::array<Along, kPoints> hint_{};
-  std::array<double, kPoints> depth_{};
+  std::array<Touch, kPoints> touch_{};
+  std::array<double, 3> resists_{};  // of the wall against both bends [N m] and the base [N]
+  double pressed_ = 0;               // N, of the section
   double tip_force_ = 0, section_force_ = 0;
-  Vec tube_on_bag_{};
-  int until_tube_ = 0;
+  Vec tube_on_bag_{}, bag_then_{};  // N and m, when the tube was looked at
+  double since_tube_ = 0;           // s
 };
 
 }  // namespace ebac::gastroscope

@@ -37,9 +37,10 @@ InsertionTube::Base InsertionTube::reach(double s, double passed) EBAC_RT {
   const Vec lead = now(before + 1);
   const Vec way = lead - last;
   const Vec behind = before > 0 ? last - now(before - 1) : frame_[0].z;
-  const Vec ahead =
-      unit((1 - share_) * unit(behind, frame_[0].z) + share_ * unit(way, behind), frame_[before].z);
-  return {last + share_ * way, look_along(frame_[before], ahead)};
+  const Vec from = unit(behind, frame_[0].z), to = unit(way, behind);
+  const Vec ahead = unit((1 - share_) * from + share_ * to, frame_[before].z);
+  return {last + share_ * way, look_along(frame_[before], ahead), (1 / kStep) * way,
+          (1 / kStep) * (to - from)};
 }
 
 /// The gradient of the bending energy, E I / (2 h^3) sum |p[i-1] - 2 p[i] + p[i+1]|^2.
@@ -56,7 +57,7 @@ void InsertionTube::bend(double stiffness) EBAC_RT {
 /// The walls along the tube; the last node is ahead of it, and the first in the bite block.
 void InsertionTube::press(double radius, const LumenMotion& motion) EBAC_RT {
   const double stiffness = lumen_->params().stiffness;
-  most_ = all_ = 0;
+  most_ = all_ = holds_bag_ = 0;
   on_bag_ = {};
   for (std::size_t i = 1; i + 1 < count_; ++i) {
     wall_[i] = 0;
@@ -66,9 +67,29 @@ void InsertionTube::press(double radius, const LumenMotion& motion) EBAC_RT {
     const Vec push = stiffness * wall.depth * wall.way;
     force_[i] -= push;
     on_bag_ += wall.moves * push;
+    holds_bag_ += wall.moves * wall.moves * wall_[i];
     const double size = norm(push);
     all_ += size;
     most_ = std::max(most_, size);
+  }
+}
+
+/// What presses the section goes to the last two nodes, which its base moves and turns with. Its
+/// stiffness goes to each of both by itself, which is no less than together: where all of it was put
+/// between them, the section bounced from wall to wall.
+void InsertionTube::carry(std::span<const Pressed> section) EBAC_RT {
+  const std::size_t lead = count_ - 1;
+  const Vec& ahead = frame_[lead].z;
+  for (const Pressed& wall : section) {
+    if (!(wall.force > 0)) continue;
+    const Vec turns =
+        (1 / kStep) * (dot(wall.arm, ahead) * wall.way - dot(wall.way, ahead) * wall.arm);
+    const Vec first = (1 - share_) * wall.way - turns, second = share_ * wall.way + turns;
+    force_[lead - 1] -= wall.force * first;
+    force_[lead] -= wall.force * second;
+    const double one = norm(first), two = norm(second);
+    wall_[lead - 1] += wall.stiffness * one * (one + two);
+    wall_[lead] += wall.stiffness * two * (one + two);
   }
 }
 
@@ -111,8 +132,8 @@ void InsertionTube::solve(double stiffness, double damping) EBAC_RT {
   }
 }
 
-void InsertionTube::relax(double rigidity, double radius, double reach, const Vec& force,
-                          const Vec& moment, const LumenMotion& motion, double dt) EBAC_RT {
+void InsertionTube::relax(double rigidity, double radius, std::span<const Pressed> section,
+                          const LumenMotion& motion, double dt) EBAC_RT {
   const double stiffness = rigidity / (kStep * kStep * kStep);
   for (std::size_t i = 0; i < count_; ++i) {
     force_[i] = {};
@@ -120,14 +141,7 @@ void InsertionTube::relax(double rigidity, double radius, double reach, const Ve
   }
   bend(stiffness);
   press(radius, motion);
-  const std::size_t lead = count_ - 1;
-  const Vec couple = (1 / kStep) * cross(moment, frame_[lead].z);
-  force_[lead] += share_ * force + couple;
-  force_[lead - 1] += (1 - share_) * force - couple;
-  const double lever = 1 + reach / kStep;
-  const double ahead = lumen_->params().stiffness * lever * lever;
-  wall_[lead] += ahead;
-  wall_[lead - 1] += ahead;
+  carry(section);
   for (std::size_t i = 1; i < count_; ++i) {
     const Vec& along = frame_[i].z;  // what goes along the tube, it bears
     force_[i] -= dot(force_[i], along) * along;

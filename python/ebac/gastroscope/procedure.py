@@ -57,7 +57,7 @@ class Procedure:
     targets : sequence of Polyp, optional
         On the wall; default: three.
     start : float
-        Place of the camera at the start [m], [0.08, 0.5].
+        Place of the camera at the start [m], [0.08, 0.5], where it lies at rest, with straight tendons.
     seconds : float
         After which a run ends [s], (0, 3600].
     seed : int

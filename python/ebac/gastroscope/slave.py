@@ -100,7 +100,7 @@ class Slave:
     lumen : Lumen, optional
         The patient.
     start : float
-        Place of the camera at the start [m].
+        Place of the camera at the start [m], where it lies at rest, with straight tendons.
     """
 
     def __init__(
