@@ -291,6 +291,8 @@ def test_rows_that_a_table_lacks_are_found_by_their_times(table: Path) -> None:
 
 @pytest.mark.parametrize("kind", ["csv", "npz", "parquet", "mat", "h5", "mcap"])
 def test_a_table_can_be_exported_and_read_back(table: Path, kind: str) -> None:
+    if needed := {"parquet": "pyarrow", "mat": "scipy", "h5": "h5py"}.get(kind):
+        pytest.importorskip(needed)
     out = table.with_name(f"out.{kind}")
     assert runner.invoke(app, ["log", "export", str(table), str(out)]).exit_code == 0
     told = runner.invoke(app, ["log", "info", str(out), "--json"])

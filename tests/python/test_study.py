@@ -432,6 +432,7 @@ def test_the_seed_of_the_base_is_that_of_the_study() -> None:
 
 
 def test_hands_that_never_reach_the_wall_are_told_of() -> None:
+    pytest.importorskip("pandas")
     hands = ebac.Operators.sample(4, 1)
     table = hands.to_pandas()
     table.loc[:1, "target_m"] = -0.005
