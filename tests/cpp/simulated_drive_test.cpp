@@ -1,5 +1,6 @@
 // The node itself: NMT, heartbeats, EMCY, faults on request, and the torque it makes of a target.
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "ebac/canopen/eds.hpp"
@@ -116,32 +117,23 @@ TEST(Heartbeat, LostOneIsToldAndStopsTheMotor) {
   }
 }
 
+// CiA 301, 0x1029: 0 leaves the operational state only, 2 stops a node in any.
 TEST(Heartbeat, ErrorBehaviourIsConfigured) {
-  for (const auto& [behaviour, state] : {std::pair{0, NmtState::kPreOperational},
-                                         {1, NmtState::kOperational},
-                                         {2, NmtState::kStopped}}) {
+  constexpr auto kReady = NmtState::kPreOperational, kRuns = NmtState::kOperational;
+  const auto lost = [](const char* begin, int behaviour) {
     SimulatedDrive drive = ready_drive();
     must(drive, 0x1016, 2, 5 << 16 | 50);
     must(drive, 0x1029, 1, behaviour);
-    say(drive, "000#01 01");
+    say(drive, begin);
     say(drive, "705#05");
     drive.elapse(50 * kMillisecond);
-    EXPECT_EQ(drive.nmt(), state);
-  }
-}
-
-// CiA 301, 0x1029: only 0 asks for the operational state first.
-TEST(Heartbeat, ErrorBehaviourBeforeOperation) {
-  for (const auto& [behaviour, state] : {std::pair{0, NmtState::kPreOperational},
-                                         {1, NmtState::kPreOperational},
-                                         {2, NmtState::kStopped}}) {
-    SimulatedDrive drive = ready_drive();
-    must(drive, 0x1016, 2, 5 << 16 | 50);
-    must(drive, 0x1029, 1, behaviour);
-    say(drive, "000#80 01");
-    say(drive, "705#05");
-    drive.elapse(50 * kMillisecond);
-    EXPECT_EQ(drive.nmt(), state);
+    return drive.nmt();
+  };
+  for (const auto& [behaviour, running, ready] : {std::tuple{0, kReady, kReady},
+                                                  {1, kRuns, kReady},
+                                                  {2, NmtState::kStopped, NmtState::kStopped}}) {
+    EXPECT_EQ(lost("000#01 01", behaviour), running);
+    EXPECT_EQ(lost("000#80 01", behaviour), ready);
   }
 }
 
