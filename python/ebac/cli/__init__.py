@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import warnings
-from typing import Annotated, ClassVar
+from typing import Annotated, Any, ClassVar
 
 import typer
 
@@ -95,9 +95,14 @@ def main(
     warnings.showwarning = _noted
 
 
-def _noted(message: Warning | str, category: type[Warning], *where: object, **more: object) -> None:
+_plain = warnings.showwarning
+
+
+def _noted(message: Warning | str, category: type[Warning], *where: Any, **more: Any) -> None:
     """Print what the library warns of as every other note, without the line of code."""
     from ebac.cli import output
 
     if issubclass(category, UserWarning):
         output.note(str(message).removesuffix("."))
+    else:
+        _plain(message, category, *where, **more)
