@@ -94,6 +94,7 @@ struct PortEnergy {
   double out = 0;         // J, out of it
   double allowed = 0;     // J, that has come in at the other port, as far as known here
   double dissipated = 0;  // J, by what holds the port passive
+  double debt = 0;        // J, of the reserve, spent in earlier sessions
 
   void add(double joule) EBAC_RT {
     if (joule > 0)
@@ -101,8 +102,10 @@ struct PortEnergy {
     else
       out -= joule;
   }
-  /// What may still go out.
-  double left() const EBAC_RT { return allowed + dissipated - out; }
+  /// What may still go out, before the reserve.
+  double left() const EBAC_RT { return allowed + dissipated - out - debt; }
+  /// A new session, after one that ended with `left`: what it spent of the reserve stays spent.
+  void begin(double left) EBAC_RT { *this = {.debt = std::max(0.0, -left)}; }
 };
 
 /// The speeds v at which a port of the force f0 + slope v gives out at most `power`: the roots of slope v^2 +

@@ -36,12 +36,12 @@ class MasterSide {
     if (session_.judge(packet) == Heed::kTaken) session_.take(packet);
   }
 
-  /// The hand agrees to go on after the link was lost: a new session, whose accounts begin at zero.
+  /// The hand agrees to go on after the link was lost: a new session. What earlier ones spent of the reserve stays
+  /// spent, in the law too.
   bool consent() EBAC_RT {
     if (!session_.consent()) return false;
-    port_ = {};
+    port_.begin(waves() ? wave_left() : port_.left());
     wave_sum_ = used_wave_ = used_energy_ = smooth_ = last_ = 0;
-    law_.reset();
     return true;
   }
 
@@ -96,6 +96,9 @@ class MasterSide {
  private:
   bool waves() const EBAC_RT { return coupling_.scheme == static_cast<int>(Scheme::kWaves); }
 
+  /// What the wave that comes in may still carry, before the reserve [J].
+  double wave_left() const EBAC_RT { return port_.allowed - port_.debt - used_energy_; }
+
   /// The energy of the interval that ended now, and the wave that went out over it.
   void observe(const Port& port) EBAC_RT {
     if (!(port.dt > 0)) return;
@@ -113,7 +116,7 @@ class MasterSide {
     if (!waves()) return in.value;
     const double b = coupling_.impedance;
     const double most =
-        std::sqrt(2 * std::max(0.0, in.energy + coupling_.reserve - used_energy_) / dt_);
+        std::sqrt(2 * std::max(0.0, wave_left() + coupling_.reserve) / dt_);
     smooth_ += (in.wave - last_ - smooth_ * dt_) / kSmooth;
     last_ = in.wave;
     const double wanted = coupling_.follow ? (in.wave - used_wave_) / kSmooth : smooth_;

@@ -107,13 +107,16 @@ class SlaveSide {
   Scheme scheme() const EBAC_RT { return static_cast<Scheme>(coupling_.scheme); }
 
   void begin() EBAC_RT {
-    port_ = {};
+    port_.begin(scheme() == Scheme::kWaves ? wave_left() : port_.left());
     aligned_ = false;
     if (!(coupling_.realign > 0)) known_ = false;
     last_ = scheme() == Scheme::kWaves ? 0.0 : state_.target;
     smooth_ = 0;
     used_wave_ = used_energy_ = wave_sum_ = wave_energy_ = 0;
   }
+
+  // What the wave that comes in may still carry, before the reserve [J].
+  double wave_left() const EBAC_RT { return port_.allowed - port_.debt - used_energy_; }
 
   // The controller's force at target speed v is f0 + slope v: implicit, exact at the end of the tick.
   double slope() const EBAC_RT { return coupling_.stiffness * dt_ + coupling_.damping; }
@@ -173,8 +176,8 @@ class SlaveSide {
 
   double reflect(double wanted, const Packet& in) EBAC_RT {
     const double b = coupling_.impedance;
-    const double most =
-        std::sqrt(2 * std::max(0.0, in.energy + coupling_.reserve - used_energy_) / dt_);
+    port_.allowed = std::max(port_.allowed, in.energy);
+    const double most = std::sqrt(2 * std::max(0.0, wave_left() + coupling_.reserve) / dt_);
     const double u = std::clamp(wanted, -most, most);
     used_wave_ += u * dt_;
     used_energy_ += 0.5 * u * u * dt_;
