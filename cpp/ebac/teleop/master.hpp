@@ -25,7 +25,7 @@ class MasterSide {
         dt_(setup.timing.dt),
         lag_(static_cast<std::uint32_t>(setup.timing.delay) + 1),
         device_(setup),
-        chain_(setup.device, Free{}, law.timing()),
+        chain_(setup.device, Free{}, law.timing(), observing(setup)),
         law_(law),
         session_(Role::kMaster, coupling, dt_, run) {
     sample_.axes = 1;
@@ -52,15 +52,17 @@ class MasterSide {
     chain_.account(axes);
     chain_.show_own_force(axes);
     Port& port = axes[0].port;
+    move(port);
     observe(port);
     session_.tick();
     if (watch().state() == LinkState::kRunning) begun_ = true;
-    if (!begun_) origin_ = port.x;
-    const double net = watch().share() * asked(port, session_.play());
+    if (!begun_) origin_ = x_;
+    const double net = watch().share() * asked(session_.play());
     net_[tick_ % net_.size()] = net;
-    port.f_env = net + inject(port);
+    port.f_env = net + inject();
     port.f_cmd = law_.step(port);
     chain_.show_whole_force(axes);
+    chain_.heed(law_.drained(), now.dt, axes);
     chain_.drive(now.dt, axes);
     if (sample_.fault == Fault::kNone) sample_.fault = judge(reading, axes);
     if (sample_.fault != Fault::kNone) {
@@ -75,7 +77,7 @@ class MasterSide {
         .sequence = session_.next(),
         .echo = receiver().newest(),
         .stamp = stamp,
-        .value = port.x - origin_,
+        .value = x_ - origin_,
         .energy = waves() ? port_.in - port_.out + port_.dissipated + used_energy_ : port_.in,
         .wave = wave_sum_,
         .run = session_.run()};
@@ -96,6 +98,20 @@ class MasterSide {
  private:
   bool waves() const EBAC_RT { return coupling_.scheme == static_cast<int>(Scheme::kWaves); }
 
+  /// Whatever the law, the network is shown the observer's estimate, in which counts are no blows.
+  static Observing observing(const Setup& setup) EBAC_RT {
+    if (!setup.observer) return {};
+    return {.on = true, .acts = true, .params = *setup.observer};
+  }
+  /// Where the handle is, and how fast it will be when the command of this tick acts.
+  void move(const Port& port) EBAC_RT {
+    const Estimate& est = port.est;
+    const double x = port.x + est.weight * (est.x - port.x);
+    dx_ = port.dt > 0 ? x - x_ : 0.0;
+    x_ = x;
+    v_ = port.v + est.weight * (est.v_act - port.v);
+  }
+
   /// What the wave that comes in may still carry, before the reserve [J].
   double wave_left() const EBAC_RT { return port_.allowed - port_.debt - used_energy_; }
 
@@ -103,15 +119,15 @@ class MasterSide {
   void observe(const Port& port) EBAC_RT {
     if (!(port.dt > 0)) return;
     const double net = tick_ >= lag_ ? net_[(tick_ - lag_) % net_.size()] : 0.0;
-    port_.add(net * port.dx);
-    port_.dissipated += (port.f_applied - net) * port.dx + port.damped - damped_;
+    port_.add(net * dx_);
+    port_.dissipated += (port.f_applied - net) * dx_ + port.damped - damped_;
     damped_ = port.damped;
     const double b = coupling_.impedance;
-    wave_sum_ += (b * port.dx + net * port.dt) / std::sqrt(2 * b);
+    wave_sum_ += (b * dx_ + net * port.dt) / std::sqrt(2 * b);
   }
 
   /// The force that comes through the network, before anything holds it back.
-  double asked(const Port& port, const Packet& in) EBAC_RT {
+  double asked(const Packet& in) EBAC_RT {
     port_.allowed = std::max(port_.allowed, in.energy);
     if (!waves()) return in.value;
     const double b = coupling_.impedance;
@@ -123,15 +139,15 @@ class MasterSide {
     const double w = std::clamp(wanted, -most, most);
     used_wave_ += w * dt_;
     used_energy_ += 0.5 * w * w * dt_;
-    return b * port.v - std::sqrt(2 * b) * w;
+    return b * v_ - std::sqrt(2 * b) * w;
   }
 
   /// The passivity controller: a damper that takes what is missing in the account within a tick.
-  double inject(const Port& port) EBAC_RT {
-    if (coupling_.scheme != static_cast<int>(Scheme::kPassivity) || port.v == 0) return 0;
+  double inject() EBAC_RT {
+    if (coupling_.scheme != static_cast<int>(Scheme::kPassivity) || v_ == 0) return 0;
     const double missing = -(port_.left() + coupling_.reserve);
     if (!(missing > 0)) return 0;
-    return std::min(coupling_.injection, missing / (port.v * port.v * dt_)) * port.v;
+    return std::min(coupling_.injection, missing / (v_ * v_ * dt_)) * v_;
   }
 
   Coupling coupling_;
@@ -147,6 +163,9 @@ class MasterSide {
   std::uint32_t tick_ = 0;
   bool begun_ = false;
   double origin_ = 0;       // m
+  double x_ = 0;            // m, the handle
+  double dx_ = 0;           // m, since the last tick
+  double v_ = 0;            // m/s, when the command of this tick acts
   double damped_ = 0;       // J
   double wave_sum_ = 0;     // sqrt(W) s
   double used_wave_ = 0;    // sqrt(W) s

@@ -56,7 +56,7 @@ SCHEMES: Mapping[str, Scheme] = {
         (
             "master-passivity",
             "passivity-control",
-            Coupling(scheme=POSITION_FORCE, measured=True),
+            Coupling(scheme=POSITION_FORCE, measured=True, buffer=0.015),
             "the same, with passivity control at the master alone",
         ),
         (
@@ -64,9 +64,9 @@ SCHEMES: Mapping[str, Scheme] = {
             "direct",
             Coupling(
                 scheme=PASSIVITY,
-                injection=10,
-                catch_up=0.005,
-                stiffness=500,
+                injection=20,
+                catch_up=0.1,
+                stiffness=1000,
                 reserve=1e-3,
                 buffer=0.015,
             ),
@@ -81,13 +81,13 @@ SCHEMES: Mapping[str, Scheme] = {
         (
             "ebac",
             "ebac",
-            Coupling(scheme=POSITION_FORCE, buffer=0.015),
+            Coupling(scheme=POSITION_FORCE),
             "position there, the controller's force back, EBAC at the master",
         ),
         (
             "two-port-ebac",
             "ebac",
-            Coupling(scheme=PASSIVITY, buffer=0.015),
+            Coupling(scheme=PASSIVITY, stiffness=8000, buffer=0.015),
             "EBAC at the master, an energy bound at the slave's port",
         ),
     )

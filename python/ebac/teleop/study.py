@@ -35,15 +35,19 @@ GRIDS: Mapping[str, Mapping[str, Sequence[Any]]] = {
     "position-force": {"measured": (False, True), "buffer": (0.0, 0.015)},
     "master-passivity": {"measured": (False, True), "buffer": (0.0, 0.015)},
     "two-port-passivity": {
-        "injection": (5, 10, 20, 40),
-        "catch_up": (0.005, 0.02, 0.1),
+        "injection": (5, 10, 20, 40, 80),
+        "catch_up": (0.005, 0.02, 0.1, 0.3),
         "buffer": (0.0, 0.015),
-        "stiffness": (500, 1000, 4000),
+        "stiffness": (250, 500, 1000, 2000, 4000),
         "reserve": (1e-3, 5e-3),
     },
     "waves": {"impedance": (5, 10, 20, 30, 40), "buffer": (0.0, 0.015), "stiffness": (1000, 4000)},
     "ebac": {"measured": (False, True), "buffer": (0.0, 0.015)},
-    "two-port-ebac": {"catch_up": (0.02, 0.1), "buffer": (0.0, 0.015), "stiffness": (1000, 4000)},
+    "two-port-ebac": {
+        "catch_up": (0.005, 0.02, 0.1, 0.3),
+        "buffer": (0.0, 0.015),
+        "stiffness": (1000, 2000, 4000, 8000, 16000),
+    },
 }
 
 
