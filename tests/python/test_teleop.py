@@ -250,6 +250,7 @@ def test_waves_over_counts_give_out_their_reserve_alone() -> None:
         there=Link(delay=0.07),
         slave=SlaveModel(contact=0.003, contact_stiffness=708),
         seconds=60,
+        impedance=20,
     )
     assert run.least_network_J > -5.5e-3
     took = run["energy"][-1]
@@ -355,7 +356,7 @@ def test_a_run_that_shakes_does_not_hide_the_others_and_is_said_to_be_cut() -> N
     hard, far = SlaveModel(contact_stiffness=20e3), Link(delay=0.2)
     runs = [
         teleop.simulate(name, slave=hard, there=far, seconds=5)
-        for name in ("position-force", "waves")
+        for name in ("position-force", "two-port-passivity")
     ]
     figure = plot_teleop_runs(runs)
     shaking, calm = figure.axes[:2]
@@ -376,7 +377,9 @@ def test_a_run_prints_its_results() -> None:
     assert f"  force at rest       {run.rest_N:.2f} N\n" in text
     assert f"  transparency        {run.transparency:.4g}\n" in text
     assert len(text.splitlines()) < 20
-    assert repr(run).startswith("<Run of ebac: still, passive at the master's port and at both")
+    assert repr(run).startswith(
+        f"<Run of ebac: {'still' if run.still else 'swings'}, passive at the master's port"
+    )
     assert "<img" in run._repr_html_()
     assert "rest [N]" in run._repr_html_()
 
@@ -554,6 +557,10 @@ def test_command_line(tmp_path: Path) -> None:
     assert done.exit_code == 0, done.output
     assert [row["scheme"] for row in json.loads(done.stdout)["rows"]] == ["waves", "ebac"]
     assert (tmp_path / "t" / "runs.png").exists()
+    noisy = CliRunner().invoke(app, [*words[:-1], str(tmp_path / "n"), "--device-noise", "0.03"])
+    assert json.loads(noisy.stdout)["rows"] != json.loads(done.stdout)["rows"]
+    wide = CliRunner().invoke(app, [*words[:7], "--device", "joystick"])
+    assert "has 2 axes; teleoperation has 1" in wide.output
     wrong = CliRunner().invoke(app, ["teleop", "master", "--peer", "nowhere"])
     assert wrong.exit_code == 2
     assert "must be an address and a port" in wrong.output

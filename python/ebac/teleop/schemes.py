@@ -43,7 +43,7 @@ class Scheme:
         )
 
 
-#: The schemes by name, with the parameters that `ebac teleop study --tune` finds for a rough network.
+#: The schemes by name, with the parameters that `ebac teleop study --tune --device-noise 0.03` finds.
 SCHEMES: Mapping[str, Scheme] = {
     name: Scheme(name=name, law=law, coupling=coupling, summary=summary)
     for name, law, coupling, summary in (
@@ -56,7 +56,7 @@ SCHEMES: Mapping[str, Scheme] = {
         (
             "master-passivity",
             "passivity-control",
-            Coupling(scheme=POSITION_FORCE, measured=True, buffer=0.015),
+            Coupling(scheme=POSITION_FORCE, measured=True),
             "the same, with passivity control at the master alone",
         ),
         (
@@ -65,8 +65,8 @@ SCHEMES: Mapping[str, Scheme] = {
             Coupling(
                 scheme=PASSIVITY,
                 injection=20,
-                catch_up=0.1,
-                stiffness=1000,
+                catch_up=0.02,
+                stiffness=500,
                 reserve=1e-3,
                 buffer=0.015,
             ),
@@ -75,13 +75,13 @@ SCHEMES: Mapping[str, Scheme] = {
         (
             "waves",
             "direct",
-            Coupling(scheme=WAVES, impedance=20, buffer=0.015),
+            Coupling(scheme=WAVES, impedance=40, buffer=0.015),
             "wave variables, matched impedance (Niemeyer, Slotine 1991, 2004)",
         ),
         (
             "ebac",
             "ebac",
-            Coupling(scheme=POSITION_FORCE),
+            Coupling(scheme=POSITION_FORCE, buffer=0.015),
             "position there, the controller's force back, EBAC at the master",
         ),
         (

@@ -7,10 +7,11 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from ebac.cli import output
+from ebac.cli import from_options, options, output
 
 if TYPE_CHECKING:
     from ebac._core import Link
+    from ebac.scenario import Scenario
 
 PANEL = "Network"
 
@@ -66,3 +67,14 @@ class LinkOptions:
             cut_every=self.cut_every,
             cut_length=self.cut_length,
         )
+
+
+@dataclass(frozen=True, kw_only=True)
+class MasterOptions(options.DeviceOptions):
+    """The stick of the master, and whether it has the state observer."""
+
+    observer: Annotated[bool | None, options.observer()] = None
+
+    def stick(self) -> Scenario:
+        """Return a scenario with the device."""
+        return from_options.scenario(self)

@@ -13,7 +13,7 @@ import typer
 from ebac._util.headings import with_units
 from ebac.cli import completion, options, output, simulated
 from ebac.cli.teleop.consent import Consent
-from ebac.cli.teleop.options import LinkOptions
+from ebac.cli.teleop.options import LinkOptions, MasterOptions
 
 PORT = typer.Option(help="UDP port to listen on; 0 takes any free one.", min=0, max=65535)
 HOST = typer.Option(help="Address of this machine to use.")
@@ -36,6 +36,7 @@ def peer_of(text: str, option: str) -> tuple[str, int]:
 
 
 def master(
+    stick: MasterOptions,
     peer: Annotated[
         str, typer.Option(help="Address of the network or the slave, such as 127.0.0.1:49200.")
     ] = "127.0.0.1:49201",
@@ -66,7 +67,7 @@ def master(
 
     * `ebac teleop master --peer 127.0.0.1:49200 --consent-after 1 --seconds 5 --json`
     """
-    from ebac import Free, Hand, Scenario, Sine
+    from ebac import Free, Hand, Sine
     from ebac.laws import design
     from ebac.teleop import processes
     from ebac.teleop import scheme as scheme_of
@@ -75,7 +76,7 @@ def master(
         where = peer_of(peer, "--peer")
         chosen = scheme_of(scheme)
         path = Sine(centre=0.02, amplitude=0.015, frequency=0.2, phase=-1.5708)
-        scenario = Scenario(
+        scenario = stick.stick().replace(
             environment=Free(), hand=Hand(path=[path]), seed=1 if seed is None else seed
         )
         law = design(chosen.law, scenario.device, scenario.known_timing)

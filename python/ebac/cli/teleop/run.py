@@ -9,7 +9,7 @@ import typer
 
 from ebac.cli import completion, options, output
 from ebac.cli.files import ResultOptions
-from ebac.cli.teleop.options import LinkOptions
+from ebac.cli.teleop.options import LinkOptions, MasterOptions
 
 if TYPE_CHECKING:
     from ebac.teleop import Run
@@ -18,6 +18,7 @@ if TYPE_CHECKING:
 def run(
     to: ResultOptions,
     over: LinkOptions,
+    master: MasterOptions,
     scheme: Annotated[
         list[str] | None,
         typer.Option(
@@ -52,7 +53,7 @@ def run(
 
     * `ebac teleop run`
 
-    * `ebac teleop run --delay 0.2 --jitter 0.01 --loss 0.1 --scheme waves,ebac`
+    * `ebac teleop run --delay 0.2 --jitter 0.01 --loss 0.1 --scheme waves,ebac --device-noise 0.03`
 
     * `ebac teleop run --contact-stiffness 2000 --law eba --scheme position-force --json`
     """
@@ -61,6 +62,7 @@ def run(
     with output.refusing():
         names = output.words(scheme or SCHEMES)
         folder = to.folder("teleop-run", as_json=as_json)
+        stick = master.stick()
         runs = [
             simulate(
                 name,
@@ -69,6 +71,7 @@ def run(
                 slave=SlaveModel(contact_stiffness=contact_stiffness),
                 seconds=seconds,
                 seed=1 if seed is None else seed,
+                scenario=stick,
             )
             for name in names
         ]

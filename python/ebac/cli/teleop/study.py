@@ -9,6 +9,7 @@ import typer
 
 from ebac.cli import output
 from ebac.cli.files import ResultOptions
+from ebac.cli.teleop.options import MasterOptions
 
 if TYPE_CHECKING:
     from ebac.teleop import Study
@@ -16,6 +17,7 @@ if TYPE_CHECKING:
 
 def study(
     to: ResultOptions,
+    master: MasterOptions,
     scheme: Annotated[
         list[str] | None,
         typer.Option(help="Schemes, separated by commas.", show_default="all"),
@@ -45,11 +47,11 @@ def study(
     """Compare schemes in free motion, on soft tissue and on a hard contact, over delay, jitter and loss.
 
     A simulation of three hands in each case. The parameters of each scheme were the best on a training set of other
-    contacts, delays and hands; `--tune` repeats that search.
+    contacts, delays and hands, with `--device-noise 0.03`; `--tune` repeats that search.
 
     **Examples**
 
-    * `ebac teleop study`
+    * `ebac teleop study --device-noise 0.03`
 
     * `ebac teleop study --network clean --scheme waves,ebac --delay 0.1`
 
@@ -60,12 +62,13 @@ def study(
     with output.refusing():
         names = output.words(scheme or teleop.SCHEMES)
         schemes = [teleop.scheme(name) for name in names]
+        stick = master.stick()
         folder = to.folder("teleop-study", as_json=as_json)
         if tune:
             with output.progress(len(schemes), quiet=as_json) as step:
                 for i, one in enumerate(schemes):
                     step(f"tuning {one.name}")
-                    schemes[i] = teleop.tuned(one.name)
+                    schemes[i] = teleop.tuned(one.name, scenario=stick)
         with output.counting("simulating", quiet=as_json) as progress:
             found = teleop.study(
                 schemes,
@@ -74,6 +77,7 @@ def study(
                 else teleop.CONTACTS,
                 delays=delay or teleop.DELAYS,
                 networks=(network,),
+                scenario=stick,
                 progress=progress,
             )
     to.report(
