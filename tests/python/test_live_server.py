@@ -115,6 +115,14 @@ def test_what_strangers_send_is_no_news_and_pages_have_an_end(
     assert capfd.readouterr().err == ""
 
 
+def test_a_server_on_every_address_is_opened_by_the_name_of_its_machine() -> None:
+    import socket
+
+    for everywhere in ("0.0.0.0", "::"):
+        gate = Gate(host=everywhere, port=8080, control="c", watch="w")
+        assert gate.url() == f"http://{socket.gethostname()}:8080/?token=c"
+
+
 def test_an_origin_must_be_given(server: Any) -> None:
     gate = Gate(host="127.0.0.1", port=80, control="c", watch="w")
     assert gate.refuses("/socket?token=c", host="127.0.0.1:80", origin=None, socket=True)

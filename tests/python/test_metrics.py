@@ -69,6 +69,12 @@ def test_what_never_moves_has_settled_at_once() -> None:
     assert row.quiet
 
 
+def test_a_part_of_a_run_settles_from_its_own_first_row_on() -> None:
+    later = ebac.contact(ebac.simulate(ebac.Scenario(), "ebac")[3.0:])
+    assert later.settled_s == pytest.approx(0, abs=1e-3)
+    assert later.force_settled_s == pytest.approx(0, abs=1e-3)
+
+
 def test_the_border_of_quiet_is_a_quarter_of_a_millimetre() -> None:
     for swing, quiet in ((0.249e-3, True), (0.251e-3, False)):
         x = swing / 2 * np.where(np.arange(1000) % 2, 1.0, -1.0)

@@ -100,7 +100,7 @@ void measure_force(const ContactRecord& r, std::size_t tail, std::size_t still_f
   c.force_rest = mean(r.force.subspan(tail));
   const double band = std::max(kForceShare * std::abs(c.force_rest), kForceBand);
   const std::size_t from = settling(r.force, c.force_rest, band);
-  if (from <= tail) c.force_settled = r.t[from];
+  if (from <= tail) c.force_settled = r.t[from] - r.t.front();
   const std::size_t settled = std::max(std::min(from, tail), still_from);
   const Values after = r.force.subspan(settled);
   c.ripple = width(after);
@@ -149,7 +149,7 @@ WallContact measure_contact(const ContactRecord& r) {
   std::size_t still_from = tail_from;
   if (c.still()) {
     const std::size_t from = settling(r.x, c.rest, kStillSwing / 2);
-    c.settled = r.t[std::min(from, r.t.size() - 1)];
+    c.settled = r.t[std::min(from, r.t.size() - 1)] - r.t.front();
     still_from = std::min(from, tail_from);
   } else {
     c.limit_cycle = frequency(r.t.last(tail), x, c.rest, c.swing);

@@ -67,7 +67,7 @@ struct WallContact {
         F{"force_swing", &WallContact::force_swing, "N",
           "applied force, peak to peak, over the last 30 %"},
         F{"settled", &WallContact::settled, "s",
-          "from when on it stays within 0.125 mm of its rest"},
+          "time from the first row to where it stays within 0.125 mm of its rest"},
         F{"peak", &WallContact::peak, "m", "deepest position of the whole run"},
         F{"impact_share", &WallContact::impact_share, "1",
           "applied force over that of the virtual world, in the tick of the deepest position"},
@@ -85,8 +85,8 @@ struct WallContact {
         F{"force_rest", &WallContact::force_rest, "N",
           "mean applied force over the last 30 % of the run"},
         F{"force_settled", &WallContact::force_settled, "s",
-          "from when on the applied force stays within 5 % or 0.2 N of its rest, the larger; none "
-          "where that comes after the tail has begun"},
+          "time from the first row to where the applied force stays within 5 % or 0.2 N of its "
+          "rest, the larger; none where that comes after the tail has begun"},
         F{"ripple", &WallContact::ripple, "N",
           "applied force, peak to peak, after position and force have settled"},
         F{"ripple_rms", &WallContact::ripple_rms, "N",

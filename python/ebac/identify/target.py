@@ -87,7 +87,22 @@ class Target:
 
     @classmethod
     def tapping(cls, frequency: float, seconds: float, start: float = 0.0) -> Target:
-        """Return a target with level 0 in the first half of each period and level 1 in the second, like `Tapping`."""
+        """Return a target with level 0 in the first half of each period and level 1 in the second, like `Tapping`.
+
+        Parameters
+        ----------
+        frequency : float
+            Of the periods [Hz], above 0.
+        seconds : float
+            Length of the recording [s], above 0: a switch within it is one place more to fit.
+        start : float
+            Time of its first row [s].
+
+        Raises
+        ------
+        ValueError
+            For a frequency or a length that is not above 0.
+        """
         number("Target.tapping: frequency", frequency)
         number("Target.tapping: seconds", seconds)
         number("Target.tapping: start", start)

@@ -6,6 +6,7 @@ import hmac
 import secrets
 from dataclasses import dataclass, field
 from http import HTTPStatus
+from socket import gethostname
 from typing import Literal
 from urllib.parse import parse_qs, urlsplit
 
@@ -21,6 +22,8 @@ HEADERS = {
 }
 #: The port that a browser leaves out of an address.
 HTTP_PORT = 80
+#: What a server listens on to be reached by each of its addresses; no page is opened under them.
+EVERY_ADDRESS = ("0.0.0.0", "::")
 Role = Literal["control", "watch"]
 
 
@@ -53,8 +56,9 @@ class Gate:
         return self.host in ("127.0.0.1", "::1", "localhost")
 
     def url(self, role: Role = "control") -> str:
-        """Return the address with its secret."""
-        host = f"[{self.host}]" if ":" in self.host else self.host
+        """Return the address with its secret: by the machine's name if the server listens on every address."""
+        host = gethostname() if self.host in EVERY_ADDRESS else self.host
+        host = f"[{host}]" if ":" in host else host
         secret = self.control if role == "control" else self.watch
         return f"http://{host}:{self.port}/?token={secret}"
 

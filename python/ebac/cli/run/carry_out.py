@@ -116,7 +116,7 @@ def give(
         notes: list[str] = getattr(fault, "__notes__", [])
         kept = [] if log is None else [f"its rows are in {log}"]
         other = ["--virtual instead of --simulated runs it on a virtual clock"]
-        hints = [*notes, fault.remedy, *(other if notes and result.simulated else []), *kept]
+        hints = [*notes, *(other if notes and result.simulated else []), fault.remedy, *kept]
         text = str(fault).partition("; see")[0]
         output.fail("; ".join([text, *hints]), code=output.FAILED)
     if result.engine is not None and not result.engine.lasted:

@@ -161,6 +161,10 @@ def show(
         part = slice(first, first + LAWS_ABREAST)
         laws = [contact.law for contact in contacts[part]]
         show_lines(BODY_LINES, dict(zip(laws, (bodies or [])[part], strict=True)))
+    if any((body.normal_error_deg or 0) > 90 for body in bodies or []):
+        output.say(
+            "normal error: the largest angle between force and surface; beyond 90 deg the law pulled into the body."
+        )
     output.say("Simulated, not measured:", style="bold")
     output.indented(formatting.describe(scenario).replace("; ", "\n"))
     if through is not None:
