@@ -13,7 +13,8 @@ from ebac._core import TeleopPacket as Packet
 from ebac.teleop.endurance import Endurance, endurance
 from ebac.teleop.run import Run, simulate
 from ebac.teleop.schemes import SCHEMES, Scheme, scheme
-from ebac.teleop.study import CONTACTS, DELAYS, NETWORKS, Study, StudyRow, study, tuned
+from ebac.teleop.study import CONTACTS, DELAYS, NETWORKS, Study, StudyRow, study
+from ebac.teleop.tuning import tuned
 
 __all__ = [
     "CONTACTS",
