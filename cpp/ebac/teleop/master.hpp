@@ -131,8 +131,7 @@ class MasterSide {
     port_.allowed = std::max(port_.allowed, in.energy);
     if (!waves()) return in.value;
     const double b = coupling_.impedance;
-    const double most =
-        std::sqrt(2 * std::max(0.0, wave_left() + coupling_.reserve) / dt_);
+    const double most = std::sqrt(2 * std::max(0.0, wave_left() + coupling_.reserve) / dt_);
     smooth_ += (in.wave - last_ - smooth_ * dt_) / kSmooth;
     last_ = in.wave;
     const double wanted = coupling_.follow ? (in.wave - used_wave_) / kSmooth : smooth_;
