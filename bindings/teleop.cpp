@@ -53,19 +53,38 @@ std::optional<Packet> decoded(const py::bytes& datagram) {
 void bind_packet(py::module_& m) {
   py::class_<Packet>(m, "TeleopPacket",
                      "A datagram between master and slave; see `ebac.teleop` for the layout.")
-      .def(py::init([](bool from_slave, bool lost, std::uint32_t session, std::uint32_t sequence,
-                       std::uint32_t echo, std::int64_t stamp, double value, double energy,
-                       double wave, std::uint32_t run, std::uint32_t fault, bool leaving,
-                       const std::array<double, 3>& more, const std::array<double, 4>& at) {
-             return Packet{from_slave, lost, session, sequence, echo,    stamp, value,
-                           energy,     wave, run,     fault,    leaving, more,  at};
-           }),
-           py::kw_only(), py::arg("from_slave") = false, py::arg("lost") = false,
-           py::arg("session") = 1, py::arg("sequence") = 0, py::arg("echo") = 0,
-           py::arg("stamp") = 0, py::arg("value") = 0.0, py::arg("energy") = 0.0,
-           py::arg("wave") = 0.0, py::arg("run") = 0, py::arg("fault") = 0,
-           py::arg("leaving") = false, py::arg("more") = std::array<double, 3>{},
-           py::arg("at") = std::array<double, 4>{})
+      .def(
+          py::init([](bool from_slave, bool lost, std::uint32_t session, std::uint32_t sequence,
+                      std::uint32_t echo, std::int64_t stamp, double value, double energy,
+                      double wave, std::uint32_t run, std::uint32_t fault, bool leaving, int scheme,
+                      const std::array<double, 3>& more, const std::array<double, 4>& at) {
+            constexpr int kLast = static_cast<int>(teleop::Scheme::kWaves);
+            if (scheme < 0 || scheme > kLast) {
+              throw py::value_error("TeleopPacket: scheme = " + std::to_string(scheme) +
+                                    ": must lie in [0, " + std::to_string(kLast) + "]");
+            }
+            return Packet{from_slave,
+                          lost,
+                          session,
+                          sequence,
+                          echo,
+                          stamp,
+                          value,
+                          energy,
+                          wave,
+                          run,
+                          fault,
+                          leaving,
+                          static_cast<std::uint8_t>(scheme),
+                          more,
+                          at};
+          }),
+          py::kw_only(), py::arg("from_slave") = false, py::arg("lost") = false,
+          py::arg("session") = 1, py::arg("sequence") = 0, py::arg("echo") = 0,
+          py::arg("stamp") = 0, py::arg("value") = 0.0, py::arg("energy") = 0.0,
+          py::arg("wave") = 0.0, py::arg("run") = 0, py::arg("fault") = 0,
+          py::arg("leaving") = false, py::arg("scheme") = 0,
+          py::arg("more") = std::array<double, 3>{}, py::arg("at") = std::array<double, 4>{})
       .def_readonly("from_slave", &Packet::from_slave, "Whether the slave sent it.")
       .def_readonly("lost", &Packet::lost, "Whether its sender has lost the link.")
       .def_readonly("session", &Packet::session, "The hand's consents so far.")
@@ -79,6 +98,7 @@ void bind_packet(py::module_& m) {
       .def_readonly("fault", &Packet::fault,
                     "Fault that has stopped the sender's drives; 0 for none.")
       .def_readonly("leaving", &Packet::leaving, "Whether its sender ends.")
+      .def_readonly("scheme", &Packet::scheme, "`Coupling.scheme` of its sender.")
       .def_readonly("more", &Packet::more,
                     "Rotation, bend to the right and down [rad], or their load [N m].")
       .def_readonly("at", &Packet::at, "From the slave: where its four axes are [m, rad].")

@@ -8357,6 +8357,7 @@ class TeleopPacket:
         run: typing.SupportsInt | typing.SupportsIndex = 0,
         fault: typing.SupportsInt | typing.SupportsIndex = 0,
         leaving: bool = False,
+        scheme: typing.SupportsInt | typing.SupportsIndex = 0,
         more: typing.Annotated[
             collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(3)"
         ] = [0.0, 0.0, 0.0],
@@ -8412,6 +8413,11 @@ class TeleopPacket:
     def run(self) -> int:
         """
         Number of the master's run.
+        """
+    @property
+    def scheme(self) -> int:
+        """
+        `Coupling.scheme` of its sender.
         """
     @property
     def sequence(self) -> int:

@@ -2,6 +2,7 @@
 
 import itertools
 import json
+import re
 import signal
 import subprocess
 import sys
@@ -265,6 +266,35 @@ def test_the_network_is_shown_the_observers_estimate() -> None:
     assert np.ptp(blind.tail("force")) > 5 * np.ptp(seen.tail("force"))
 
 
+@pytest.mark.skipif(sys.platform != "linux", reason="UDP of the library is Linux's")
+def test_two_sides_of_different_schemes_do_not_obey_each_other_and_say_so() -> None:
+    command = [sys.executable, "-m", "ebac.cli", "teleop"]
+    side = Slave(SlaveModel(), teleop.SCHEMES["ebac"], host="127.0.0.1", port=0)
+    ticking = threading.Thread(target=side.run, args=(4.0,))
+    ticking.start()
+    master = subprocess.run(
+        [
+            *command,
+            "master",
+            "--peer",
+            f"127.0.0.1:{side.port}",
+            "--scheme",
+            "waves",
+            "--seconds",
+            "1",
+            "--json",
+        ],
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    ticking.join()
+    assert master.returncode == 1
+    assert "another scheme" in master.stderr
+    assert json.loads(master.stdout)["other_scheme"] > 100
+    assert side.run(0)["state"] == 0
+
+
 def test_without_realignment_the_slave_goes_on_from_where_it_is() -> None:
     link = Link(delay=0.02, cut_every=2, cut_length=1)
     path = [MinimumJerk(target=0.02, at=1.2, duration=0.5)]  # while the link is cut
@@ -274,6 +304,28 @@ def test_without_realignment_the_slave_goes_on_from_where_it_is() -> None:
             "ebac", there=link, seconds=3.9, hand=Hand(path=path), slave=free, realign=realign
         )
         assert run["slave_x"][-1] == pytest.approx(place, abs=1e-3)
+
+
+@pytest.mark.parametrize(
+    ("cuts", "message"),
+    [
+        (
+            {"cut_every": 4, "cut_length": 5},
+            "cut_length = 5 s: must lie above 0 s and below cut_every = 4 s",
+        ),
+        ({"cut_every": 4}, "cut_length = 0 s: must lie above 0 s"),
+        ({"cut_length": 1}, "cut_length = 1 s: needs cut_every"),
+    ],
+)
+def test_cuts_that_never_begin_or_end_are_refused(cuts: dict, message: str) -> None:
+    with pytest.raises(ValueError, match=message):
+        teleop.simulate("ebac", there=Link(**cuts), seconds=1)
+
+
+def test_help_names_every_scheme() -> None:
+    from ebac.cli.teleop.options import NAMES
+
+    assert tuple(NAMES.split(", ")) == tuple(teleop.SCHEMES)
 
 
 def test_a_bad_host_is_named_for_what_it_is() -> None:
@@ -342,7 +394,8 @@ def test_runs_are_drawn_with_their_conditions_and_a_colour_for_each_thing() -> N
     figure = plot_teleop_runs([teleop.simulate(name, seconds=3) for name in ("waves", "ebac")])
     assert figure.get_suptitle().splitlines() == [
         "Teleoperation, simulated",
-        "each way 50 ms of delay; contact of 500 N/m at 20 mm; a hand (0.15 kg, 6 N s/m, 300 N/m, target 45 mm)",
+        "each way 50 ms of delay; contact of 500 N/m at 20 mm; a hand (0.15 kg, 6 N s/m, 300 N/m, target 45 mm); "
+        "the reference device (0.25 kg, 2 N s/m, sensor without noise)",
     ]
     titles = [ax.get_title() for ax in figure.axes[:2]]
     assert titles == ["waves\nlaw direct", "ebac\nlaw ebac"]
@@ -374,8 +427,9 @@ def test_a_run_prints_its_results() -> None:
     run = teleop.simulate("ebac", back=Link(delay=0.02, loss=0.1), seconds=4)
     text = str(run)
     assert "there 50 ms of delay; back 20 ms of delay, 10 % lost" in text
-    assert f"  force at rest       {run.rest_N:.2f} N\n" in text
-    assert f"  transparency        {run.transparency:.4g}\n" in text
+    assert re.search(rf"contact force at rest +{run.rest_N:.2f} N\n", text)
+    assert re.search(rf"transparency +{run.transparency:.4g}\n", text)
+    assert "the reference device" in text
     assert len(text.splitlines()) < 20
     assert repr(run).startswith(
         f"<Run of ebac: {'still' if run.still else 'swings'}, passive at the master's port"

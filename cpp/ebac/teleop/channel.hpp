@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <stdexcept>
 #include <vector>
 
 #include "ebac/core/check.hpp"
@@ -43,13 +44,28 @@ struct Link {
   }
 };
 
+/// Returns the link; throws std::invalid_argument for a field out of its range, and for cuts that never end or never begin.
+inline const Link& checked_link(const Link& link) {
+  check(link, "Link");
+  if (link.cut_every > 0 && !(link.cut_length > 0 && link.cut_length < link.cut_every)) {
+    throw std::invalid_argument("Link.cut_length = " + shortest(link.cut_length) +
+                                " s: must lie above 0 s and below cut_every = " +
+                                shortest(link.cut_every) + " s");
+  }
+  if (link.cut_length > 0 && !(link.cut_every > 0)) {
+    throw std::invalid_argument("Link.cut_length = " + shortest(link.cut_length) +
+                                " s: needs cut_every, a longer time from one cut to the next");
+  }
+  return link;
+}
+
 /// Delays, drops and reorders what is sent through it, the same way for the same seed. Time goes in
 /// ticks of `tick` [s]; its memory is bounded.
 template <class Item>
 class Channel {
  public:
   Channel(const Link& link, double tick, std::uint64_t seed, std::uint64_t stream)
-      : link_(checked(link, "Link")),
+      : link_(checked_link(link)),
         tick_(tick),
         chance_(seed, stream),
         due_(ticks(link.delay + link.jitter + kHeld) + 1) {}

@@ -30,7 +30,10 @@ class LinkWatch {
       ++losses_;
     }
     if (state_ == LinkState::kLost && heard_ >= kSteady) state_ = LinkState::kBack;
-    if (state_ == LinkState::kBack && heard_ == 0) state_ = LinkState::kLost;
+    if (state_ == LinkState::kBack && heard_ == 0) {
+      state_ = LinkState::kLost;
+      ++losses_;
+    }
     share_ = std::clamp(share_ + (state_ == LinkState::kRunning ? step_ : -step_), 0.0, 1.0);
     if (state_ != LinkState::kRunning) away_ += dt_;
   }

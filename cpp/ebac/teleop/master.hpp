@@ -80,7 +80,8 @@ class MasterSide {
         .value = x_ - origin_,
         .energy = waves() ? port_.in - port_.out + port_.dissipated + used_energy_ : port_.in,
         .wave = wave_sum_,
-        .run = session_.run()};
+        .run = session_.run(),
+        .scheme = static_cast<std::uint8_t>(coupling_.scheme)};
   }
 
   /// Another place for the hand [m].
@@ -93,6 +94,7 @@ class MasterSide {
   const LinkWatch& watch() const EBAC_RT { return session_.watch(); }
   const Receiver& receiver() const EBAC_RT { return session_.receiver(); }
   std::uint32_t session() const EBAC_RT { return session_.number(); }
+  std::int64_t other_scheme() const EBAC_RT { return session_.other_scheme(); }
   double asked_now() const EBAC_RT { return net_[(tick_ + net_.size() - 1) % net_.size()]; }
 
  private:

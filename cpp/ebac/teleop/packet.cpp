@@ -10,6 +10,8 @@ namespace {
 constexpr std::uint8_t kSlave = 1;
 constexpr std::uint8_t kLost = 2;
 constexpr std::uint8_t kLeaving = 4;
+constexpr std::uint8_t kScheme = 8;
+constexpr std::uint8_t kSchemes = 3;
 constexpr std::size_t kMoreAt = 56;
 constexpr std::size_t kPlaceAt = 80;
 constexpr std::size_t kCrcAt = Packet::kSize - 4;
@@ -55,7 +57,7 @@ Packet::Wire encode(const Packet& packet) EBAC_RT {
   wire[1] = 'T';
   wire[2] = Packet::kVersion;
   wire[3] = static_cast<std::uint8_t>((packet.from_slave ? kSlave : 0) | (packet.lost ? kLost : 0) |
-                                      (packet.leaving ? kLeaving : 0));
+                                      (packet.leaving ? kLeaving : 0) | (kScheme * packet.scheme));
   put<4>(wire, 4, packet.session);
   put<4>(wire, 8, packet.sequence);
   put<4>(wire, 12, packet.echo);
@@ -77,7 +79,7 @@ Packet::Wire encode(const Packet& packet) EBAC_RT {
 
 std::optional<Packet> decode(std::span<const std::uint8_t> bytes) EBAC_RT {
   if (bytes.size() != Packet::kSize || bytes[0] != 'E' || bytes[1] != 'T') return std::nullopt;
-  if (bytes[2] != Packet::kVersion || bytes[3] > (kSlave | kLost | kLeaving)) return std::nullopt;
+  if (bytes[2] != Packet::kVersion || bytes[3] >= kScheme * kSchemes) return std::nullopt;
   if (get<4>(bytes, kCrcAt) != crc32(bytes.first(kCrcAt))) return std::nullopt;
   Packet packet{.from_slave = (bytes[3] & kSlave) != 0,
                 .lost = (bytes[3] & kLost) != 0,
@@ -90,7 +92,8 @@ std::optional<Packet> decode(std::span<const std::uint8_t> bytes) EBAC_RT {
                 .wave = number(bytes, 40),
                 .run = static_cast<std::uint32_t>(get<4>(bytes, 48)),
                 .fault = static_cast<std::uint32_t>(get<4>(bytes, 52)),
-                .leaving = (bytes[3] & kLeaving) != 0};
+                .leaving = (bytes[3] & kLeaving) != 0,
+                .scheme = static_cast<std::uint8_t>(bytes[3] / kScheme)};
   bool finite = std::isfinite(packet.value + packet.energy + packet.wave);
   for (std::size_t i = 0; i < packet.more.size(); ++i) {
     packet.more[i] = number(bytes, kMoreAt + 8 * i);

@@ -16,7 +16,7 @@ namespace ebac::teleop {
 ///     offset  type    content
 ///      0      u8[2]   'E' 'T'
 ///      2      u8      version, 3
-///      3      u8      flags: 1 from the slave, 2 this side has lost the link, 4 this side ends
+///      3      u8      flags: 1 from the slave, 2 this side has lost the link, 4 this side ends, and 8 times its scheme
 ///      4      u32     session: the hand's consents so far
 ///      8      u32     sequence number, from 1 in each session
 ///     12      u32     echo: newest sequence number this side has received, 0 for none
@@ -48,6 +48,7 @@ struct Packet {
   std::uint32_t run = 0;
   std::uint32_t fault = 0;
   bool leaving = false;
+  std::uint8_t scheme = 0;       // of `Coupling`
   std::array<double, 3> more{};  // rad or N m
   std::array<double, 4> at{};    // m, rad
 

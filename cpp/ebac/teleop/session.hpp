@@ -17,7 +17,7 @@ enum class Role { kMaster, kSlave };
 /// What becomes of a packet.
 enum class Heed {
   kRefused,   // not one of this session
-  kAnswered,  // not used, but its sender is to learn that its hand has to consent
+  kAnswered,  // not used, but its sender is to learn that its hand has to consent, or of the scheme
   kTaken,
   kBegun,  // taken, the first of a session that this side did not know
 };
@@ -31,10 +31,16 @@ class Session {
       : slave_(role == Role::kSlave),
         watch_(coupling, dt),
         receiver_(static_cast<int>(std::lround(coupling.buffer / dt))),
-        run_(run) {}
+        run_(run),
+        scheme_(coupling.scheme) {}
 
   Heed judge(const Packet& packet) EBAC_RT {
     if (packet.from_slave == slave_) return refused();
+    if (packet.scheme != scheme_) {
+      ++other_scheme_;
+      receiver_.refuse();
+      return slave_ && !bound_ ? Heed::kAnswered : Heed::kRefused;
+    }
     return slave_ ? obey(packet) : belong(packet);
   }
   /// A packet that counts. `alive`: whether it may be a sign of life.
@@ -62,6 +68,8 @@ class Session {
   std::uint32_t number() const EBAC_RT { return number_; }
   std::uint32_t run() const EBAC_RT { return run_; }
   bool bound() const EBAC_RT { return bound_; }  // a slave, to that run
+  /// Packets that were refused because the other side has another scheme.
+  std::int64_t other_scheme() const EBAC_RT { return other_scheme_; }
   const LinkWatch& watch() const EBAC_RT { return watch_; }
   const Receiver& receiver() const EBAC_RT { return receiver_; }
 
@@ -121,6 +129,8 @@ class Session {
   std::uint32_t sequence_ = 0;  // of the last packet sent
   std::uint32_t run_;           // of the master
   bool bound_ = false;
+  int scheme_;
+  std::int64_t other_scheme_ = 0;
   std::uint32_t slave_number_ = 0;  // of a slave that belongs to another run
   bool other_lost_ = false;
 };

@@ -89,7 +89,8 @@ class SlaveSide {
             .value = coupling_.measured ? state_.met : state_.force,
             .energy = scheme() == Scheme::kWaves ? wave_energy_ : port_.in,
             .wave = wave_sum_,
-            .run = session_.run()};
+            .run = session_.run(),
+            .scheme = static_cast<std::uint8_t>(coupling_.scheme)};
   }
 
   const State& state() const EBAC_RT { return state_; }
@@ -97,6 +98,7 @@ class SlaveSide {
   const LinkWatch& watch() const EBAC_RT { return session_.watch(); }
   const Receiver& receiver() const EBAC_RT { return session_.receiver(); }
   std::uint32_t session() const EBAC_RT { return session_.number(); }
+  std::int64_t other_scheme() const EBAC_RT { return session_.other_scheme(); }
   /// Energy given to the controller since the start, sum of force times speed of its target [J].
   double given() const EBAC_RT { return given_; }
 

@@ -65,6 +65,7 @@ template <class Side>
 void describe(const Side& side, Report& report) EBAC_RT {
   report.arrivals = side.receiver().arrivals();
   report.losses = side.watch().losses();
+  report.other_scheme = side.other_scheme();
   report.state = static_cast<int>(side.watch().state());
   report.session = static_cast<int>(side.session());
   report.away = side.watch().away();

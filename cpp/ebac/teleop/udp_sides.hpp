@@ -20,6 +20,7 @@ struct Report {
   double seconds = 0;
   std::int64_t sent = 0;
   std::int64_t refused = 0;
+  std::int64_t other_scheme = 0;
   Arrivals arrivals{};
   std::int64_t losses = 0;
   int state = 0;
@@ -45,6 +46,8 @@ struct Report {
         F{"seconds", &Report::seconds, "s", "of ticks done"},
         F{"sent", &Report::sent, "1", "datagrams sent"},
         F{"refused", &Report::refused, "1", "datagrams that are damaged, or of another protocol"},
+        F{"other_scheme", &Report::other_scheme, "1",
+          "datagrams refused because their sender has another scheme"},
         F{"losses", &Report::losses, "1", "times the link was lost"},
         F{"state", &Report::state, "1", "0 waiting, 1 running, 2 link lost, 3 link back"},
         F{"session", &Report::session, "1", "the hand's consents so far, the first included"},

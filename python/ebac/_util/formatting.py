@@ -131,7 +131,7 @@ def describe(scenario: Scenario) -> str:
         observer = f", state observer for {'every law' if used.every_law else 'laws made for it'}"
     return "; ".join(
         (
-            _device(scenario.device),
+            described_device(scenario.device),
             described_hand(scenario.hand),
             _environment(scenario.environment),
             f"{_kilo(1 / timing.dt, 'Hz')}, {samples} of delay{jitter}{observer}",
@@ -144,7 +144,8 @@ def _kilo(value: float, unit: str) -> str:
     return f"{value / 1e3:.6g} k{unit}" if value >= 1e3 else f"{value:.6g} {unit}"
 
 
-def _device(device: Device) -> str:
+def described_device(device: Device) -> str:
+    """Return a device in words: "the reference device (0.25 kg, 2 N s/m, sensor without noise)"."""
     from ebac import presets
 
     kind = "joystick" if isinstance(device.kinematics, (Gimbal, SlidingGimbal)) else "device"

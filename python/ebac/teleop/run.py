@@ -40,8 +40,8 @@ class Run:
         With the environment it met.
     there, back : Link
         The network to the slave and back.
-    hand : Hand
-        At the master.
+    scenario : Scenario
+        Of the master: device, hand, timing.
     at_master, at_slave : dict of str to int
         Packets received, missing, late, doubled, foreign.
     whole : bool
@@ -54,7 +54,7 @@ class Run:
     slave: SlaveModel
     there: Link
     back: Link
-    hand: Hand
+    scenario: Scenario
     at_master: dict[str, int]
     at_slave: dict[str, int]
     whole: bool
@@ -241,7 +241,7 @@ def simulate(
         slave=model,
         there=to_slave,
         back=to_master,
-        hand=path,
+        scenario=full,
         at_master=at_master,
         at_slave=at_slave,
         whole=columns.pop("whole"),

@@ -1,4 +1,4 @@
-"""A run of teleoperation in words: its network, contact and hand, and its results."""
+"""A run of teleoperation in words: its network, contact, hand and device, and its results."""
 
 from __future__ import annotations
 
@@ -17,8 +17,8 @@ LINES = (
     ("least, both ports", "least_network_J", "J", "-"),
     ("transparency", "transparency", "1", "-"),
     ("drift", "drift_m", "m", "-"),
-    ("force at rest", "rest_N", "N", "-"),
-    ("largest force", "most_N", "N", "-"),
+    ("contact force at rest", "rest_N", "N", "-"),
+    ("largest contact force", "most_N", "N", "-"),
 )
 #: What a run is called by the passivity of the master's port and of both ports together.
 PASSIVE = {
@@ -32,14 +32,15 @@ COUNTED = ("received", "missing", "late", "doubled", "foreign")
 
 
 def conditions(run: Run) -> tuple[str, ...]:
-    """Return law, network, contact and hand of a run, each in words."""
+    """Return law, network, contact, hand and device of a run, each in words."""
     there, back = _link(run.there), _link(run.back)
     network = f"each way {there}" if there == back else f"there {there}; back {back}"
     return (
         f"law {run.law}",
         network,
         _contact(run.slave),
-        formatting.described_hand(run.hand),
+        formatting.described_hand(run.scenario.hand),
+        formatting.described_device(run.scenario.device),
     )
 
 

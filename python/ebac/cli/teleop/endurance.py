@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from ebac.cli import completion, options, output
+from ebac.cli.teleop.options import NAMES
 
 if TYPE_CHECKING:
     from ebac.teleop import Endurance
@@ -16,7 +17,7 @@ def endurance(
     seconds: Annotated[float, typer.Option(help="Length [s].", min=5, max=86400)] = 600.0,
     scheme: Annotated[
         str,
-        typer.Option(help="Scheme; see `ebac teleop run`.", autocompletion=completion.schemes),
+        typer.Option(help=f"Scheme: {NAMES}.", autocompletion=completion.schemes),
     ] = "ebac",
     delay: Annotated[
         float, typer.Option(help="Delay in each direction [s].", min=0, max=0.3)

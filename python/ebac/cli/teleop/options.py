@@ -14,6 +14,8 @@ if TYPE_CHECKING:
     from ebac.scenario import Scenario
 
 PANEL = "Network"
+#: The schemes of `ebac.teleop.SCHEMES`, which help names without importing them.
+NAMES = "position-force, master-passivity, two-port-passivity, waves, ebac, two-port-ebac"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -74,7 +76,8 @@ class MasterOptions(options.DeviceOptions):
     """The stick of the master, and whether it has the state observer."""
 
     observer: Annotated[bool | None, options.observer()] = None
+    scenario: options.ScenarioFile = None
 
     def stick(self) -> Scenario:
-        """Return a scenario with the device."""
+        """Return a scenario with the device and the timing of the master."""
         return from_options.scenario(self)

@@ -11,18 +11,22 @@ from typing import Annotated, Any
 import typer
 
 from ebac._util.headings import with_units
+from ebac._util.plural import plural
 from ebac.cli import completion, options, output, simulated
 from ebac.cli.teleop.consent import Consent
-from ebac.cli.teleop.options import LinkOptions, MasterOptions
+from ebac.cli.teleop.options import NAMES, LinkOptions, MasterOptions
 
 PORT = typer.Option(help="UDP port to listen on; 0 takes any free one.", min=0, max=65535)
 HOST = typer.Option(help="Address of this machine to use.")
 SCHEME = typer.Option(
-    help="Scheme; the same on both sides. See `ebac teleop run`.", autocompletion=completion.schemes
+    help=f"Scheme, the same on both sides: {NAMES}.", autocompletion=completion.schemes
 )
 CUT = 0.2
 REPORT = 5.0
 LOST, BACK = 2, 3
+OTHER_SCHEME = (
+    "the other side has another scheme, so nothing of it is obeyed; give both the same --scheme"
+)
 
 
 def peer_of(text: str, option: str) -> tuple[str, int]:
@@ -156,7 +160,7 @@ def _run(name: str, side: Any, seconds: float | None, as_json: bool, by_hand: bo
         output.say(f"{name} on UDP port {side.port}. Ctrl-C stops it.")
         sys.stdout.flush()
     state, reported, report = None, time.monotonic(), side.run(0)
-    losses = 0
+    losses, other = 0, False
     enter = Consent()
     end = time.monotonic() + (inf if seconds is None else seconds)
     with simulated.signalled() as over:
@@ -164,6 +168,9 @@ def _run(name: str, side: Any, seconds: float | None, as_json: bool, by_hand: bo
             report = side.run(CUT)
             if report["losses"] > losses and report["state"] != LOST:  # within one report
                 _tell(f"{report['seconds']:8.1f} s  {name}: {STATES[LOST]}", as_json)
+            if report["other_scheme"] and not other:
+                other = True
+                _tell(f"            {name}: {OTHER_SCHEME}", as_json)
             losses = report["losses"]
             if name != "network" and report["state"] != state:
                 state = report["state"]
@@ -184,6 +191,13 @@ def _run(name: str, side: Any, seconds: float | None, as_json: bool, by_hand: bo
         )
     else:
         output.say(f"Stopped: {_line(_own(name, report)).strip()}")
+    if name == "master" and not report["arrivals"]["received"]:
+        output.fail(
+            OTHER_SCHEME
+            if other
+            else "no slave has answered; start it first, and give its address by --peer",
+            code=output.FAILED,
+        )
 
 
 #: What a side does not measure: only the master hears its own packets come back, and a network is no side.
@@ -191,8 +205,9 @@ NOT_MEASURED = {
     "master": ("moved_when_lost",),
     "slave": ("round_trip", "longest_round_trip", "force_when_lost", "fault"),
     "network": (
-        "losses", "state", "session", "away", "round_trip", "longest_round_trip", "position", "farthest", "force",
-        "most_force", "most_force_at", "most_force_since", "force_when_lost", "moved_when_lost", "fault",
+        "losses", "other_scheme", "state", "session", "away", "round_trip", "longest_round_trip", "position",
+        "farthest", "force", "most_force", "most_force_at", "most_force_since", "force_when_lost", "moved_when_lost",
+        "fault",
     ),
 }  # fmt: skip
 
@@ -222,7 +237,7 @@ def _line(report: dict[str, Any]) -> str:
     if not came["received"]:
         parts.append("nobody answered yet")
     elif report["losses"] is not None:
-        parts.append(f"link lost {report['losses']} times")
+        parts.append(f"link lost {plural(report['losses'], 'time')}")
     if came["received"] and report["round_trip"] is not None:
         parts.append(f"round trip {1e3 * report['round_trip']:.0f} ms")
     if report["most_force"] is not None:

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+import tomllib
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from ebac._util.headings import with_units
 from ebac.cli import completion, options, output
 from ebac.cli.files import ResultOptions
-from ebac.cli.teleop.options import LinkOptions, MasterOptions
+from ebac.cli.teleop.options import NAMES, LinkOptions, MasterOptions
 
 if TYPE_CHECKING:
     from ebac.teleop import Run
@@ -22,7 +24,7 @@ def run(
     scheme: Annotated[
         list[str] | None,
         typer.Option(
-            help="Schemes, separated by commas.",
+            help=f"Schemes, separated by commas: {NAMES}.",
             show_default="all",
             autocompletion=completion.schemes,
         ),
@@ -78,9 +80,9 @@ def run(
     rows = [_row(one) for one in runs]
     files = _write(folder, runs, rows, to) if folder else []
     if as_json:
-        typer.echo(output.document("teleop run", rows))
+        typer.echo(output.document("teleop run", rows, **_settings(runs[0])))
         return
-    _show(rows)
+    _show(runs, rows)
     if folder is not None:
         output.list_files(folder, files)
 
@@ -89,6 +91,8 @@ def _row(one: Run) -> dict[str, Any]:
     return {
         "scheme": one.scheme.name,
         "still": one.still,
+        "passive": one.passive,
+        "two_port_passive": one.two_port_passive,
         "swing_m": one.swing_m,
         "least_master_J": one.least_master_J,
         "least_network_J": one.least_network_J,
@@ -102,6 +106,20 @@ def _row(one: Run) -> dict[str, Any]:
     }
 
 
+def _settings(one: Run) -> dict[str, Any]:
+    """Return what all schemes have in common: network, slave, hand and device, units in the keys."""
+    parts: dict[str, Any] = {"there": one.there, "back": one.back, "slave": one.slave}
+    return {
+        **{name: with_units(part.as_dict(), _units(part)) for name, part in parts.items()},
+        "scenario": tomllib.loads(one.scenario.to_toml()),
+    }
+
+
+def _units(part: Any) -> dict[str, str]:
+    fields = type(part).fields()
+    return {one.name: one.unit.replace("/", " per ") for one in fields if one.unit != "1"}
+
+
 def _write(
     folder: Path, runs: list[Run], rows: list[dict[str, Any]], to: ResultOptions
 ) -> list[str]:
@@ -113,7 +131,7 @@ def _write(
         if draft is None:
             return []
         figures = to.save(plot_teleop_runs(runs), draft, "runs")
-        document = output.document("teleop run", rows)
+        document = output.document("teleop run", rows, **_settings(runs[0]))
         (draft / "runs.json").write_text(document + "\n", encoding="utf-8")
         for one in runs:
             columns: dict[str, Any] = dict(one.columns)
@@ -121,8 +139,9 @@ def _write(
     return [*figures, "runs.json", *(f"{one.scheme.name}.npz" for one in runs)]
 
 
-def _show(rows: list[dict[str, Any]]) -> None:
+def _show(runs: list[Run], rows: list[dict[str, Any]]) -> None:
     from ebac._util import formatting
+    from ebac.teleop import run_text
 
     columns = [
         "scheme",
@@ -146,7 +165,11 @@ def _show(rows: list[dict[str, Any]]) -> None:
             formatting.quantity(row["rest_N"], "N"),
         )
     output.show(grid)
+    for one in runs:
+        output.say(f"{one.scheme.name}: {run_text.verdict(one)}")
+    output.say("Simulated, not measured:", style="bold")
+    output.indented("\n".join(run_text.conditions(runs[0])[1:]))
     output.say(
-        "Simulated. Swing: of the stick over the last 30 %; energies: the lowest, the master's own damping counted; "
-        "drift: master less slave; at rest: force on the environment."
+        "Swing: of the stick over the last 30 %; energies: the lowest, the master's own damping counted; drift: master "
+        "less slave; at rest: force on the environment."
     )

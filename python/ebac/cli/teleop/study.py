@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from ebac.cli import output
+from ebac.cli import completion, output
 from ebac.cli.files import ResultOptions
-from ebac.cli.teleop.options import MasterOptions
+from ebac.cli.teleop.options import NAMES, MasterOptions
 
 if TYPE_CHECKING:
     from ebac.teleop import Study
@@ -20,7 +20,11 @@ def study(
     master: MasterOptions,
     scheme: Annotated[
         list[str] | None,
-        typer.Option(help="Schemes, separated by commas.", show_default="all"),
+        typer.Option(
+            help=f"Schemes, separated by commas: {NAMES}.",
+            show_default="all",
+            autocompletion=completion.schemes,
+        ),
     ] = None,
     delay: Annotated[
         list[float] | None,
