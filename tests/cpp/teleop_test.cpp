@@ -116,7 +116,7 @@ TEST(TeleopLink, OnlyAConsentLeadsBackToRunning) {
   EXPECT_EQ(watch.state(), LinkState::kRunning);
   EXPECT_NEAR(watch.share(), 0.5, 0.01);  // comes back as slowly as it went
   watch.lose();
-  EXPECT_EQ(watch.losses(), 2);
+  EXPECT_EQ(watch.losses(), 3);
 }
 
 /// A slave in free motion and a master of which only the place counts.

@@ -427,7 +427,7 @@ def test_a_run_prints_its_results() -> None:
     run = teleop.simulate("ebac", back=Link(delay=0.02, loss=0.1), seconds=4)
     text = str(run)
     assert "there 50 ms of delay; back 20 ms of delay, 10 % lost" in text
-    assert re.search(rf"contact force at rest +{run.rest_N:.2f} N\n", text)
+    assert re.search(rf"contact, at rest +{run.rest_N:.2f} N\n", text)
     assert re.search(rf"transparency +{run.transparency:.4g}\n", text)
     assert "the reference device" in text
     assert len(text.splitlines()) < 20

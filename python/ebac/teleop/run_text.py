@@ -17,8 +17,8 @@ LINES = (
     ("least, both ports", "least_network_J", "J", "-"),
     ("transparency", "transparency", "1", "-"),
     ("drift", "drift_m", "m", "-"),
-    ("contact force at rest", "rest_N", "N", "-"),
-    ("largest contact force", "most_N", "N", "-"),
+    ("contact, at rest", "rest_N", "N", "-"),
+    ("contact, at most", "most_N", "N", "-"),
 )
 #: What a run is called by the passivity of the master's port and of both ports together.
 PASSIVE = {
