@@ -12,11 +12,9 @@ from ebac._core import Mechanics, Timing, Wall
 
 #: How a condition is written out, for messages.
 GRAMMAR = (
-    "or write one out, as d2b1K15: 2 samples of delay, device damping 1 N s/m, wall 15 kN/m; without b1 the damping is "
-    "2 N s/m; K15 changes the stiffness of the wall only"
+    "or write one out, as d2b1K15: 2 samples of delay, device damping 1 N s/m, wall 15 kN/m; without b1 the device "
+    "keeps its damping; K15 changes the stiffness of the wall only"
 )
-#: Damping of the device where a delay is written and no damping [N s/m].
-USUAL_DAMPING = 2.0
 _NUMBER = r"(?:\d+(?:\.\d*)?|\.\d+)"
 _WRITTEN = re.compile(rf"(?:d(\d+)(?:b({_NUMBER}))?)?K({_NUMBER})", re.IGNORECASE)
 
@@ -42,8 +40,9 @@ class WrittenOut:
     @property
     def name(self) -> str:
         """The name with every number in its place."""
-        cell = "" if self.delay is None else f"d{self.delay}b{self.damping:g}"
-        return f"{cell}K{self.kilo:g}"
+        delay = "" if self.delay is None else f"d{self.delay}"
+        damping = "" if self.damping is None else f"b{self.damping:g}"
+        return f"{delay}{damping}K{self.kilo:g}"
 
 
 def written_out(name: str) -> WrittenOut | None:
@@ -59,7 +58,7 @@ def written_out(name: str) -> WrittenOut | None:
         return None
     kilo = float(found[3])
     delay = None if found[1] is None else int(found[1])
-    damping = None if delay is None else float(found[2] or USUAL_DAMPING)
+    damping = None if found[2] is None else float(found[2])
     try:
         Timing(delay=min(delay or 0, 2**31 - 1))
         Mechanics(damping=damping or 0.0)

@@ -58,18 +58,16 @@ class Condition:
         return to.observer_of(changed, *self.believed(changed))
 
 
-def cell(delay: int, damping: float, stiffness: float) -> Change:
-    """Set delay [samples], device damping [N s/m] and wall stiffness [N/m]."""
-    return to.together(
-        to.timing(delay=delay),
-        to.device("mechanics", damping=damping),
-        to.wall(stiffness=stiffness),
-    )
+def cell(delay: int, damping: float | None, stiffness: float) -> Change:
+    """Set delay [samples], device damping [N s/m] and wall stiffness [N/m]; None leaves the device's damping."""
+    own = () if damping is None else (to.device("mechanics", damping=damping),)
+    return to.together(to.timing(delay=delay), *own, to.wall(stiffness=stiffness))
 
 
-def _cell(name: str, delay: int, damping: float, kilo: float) -> Condition:
+def _cell(name: str, delay: int, damping: float | None, kilo: float) -> Condition:
     samples = "1 sample" if delay == 1 else f"{delay} samples"
-    summary = f"{samples} of delay, device damping {damping:g} N s/m, wall {kilo:g} kN/m"
+    own = "" if damping is None else f"device damping {damping:g} N s/m, "
+    summary = f"{samples} of delay, {own}wall {kilo:g} kN/m"
     return Condition(name=name, summary=summary, change=cell(delay, damping, 1e3 * kilo))
 
 
@@ -97,22 +95,22 @@ def _robust(
     *changes: Change,
     believed: Belief = to.truth,
     drives: Iterable[Change] = (),
-    at: tuple[int, float, float] = (1, 2, 10e3),
+    at: tuple[int, float] = (1, 10e3),
 ) -> Condition:
     return Condition(
         name=name,
         summary=summary,
-        change=to.together(cell(*at), *changes),
+        change=to.together(cell(at[0], None, at[1]), *changes),
         believed=believed,
         drives=tuple(drives),
     )
 
 
 _FIVE = [
-    _cell("d1K10", 1, 2, 10),
-    _cell("d0K10", 0, 2, 10),
-    _cell("d2K10", 2, 2, 10),
-    _cell("d1K20", 1, 2, 20),
+    _cell("d1K10", 1, None, 10),
+    _cell("d0K10", 0, None, 10),
+    _cell("d2K10", 2, None, 10),
+    _cell("d1K20", 1, None, 20),
     _cell("d1b1K5", 1, 1, 5),
 ]
 _CELLS = [
@@ -124,7 +122,7 @@ _DAMPED = [
     Condition(
         name=f"B{b}K{k:g}",
         summary=f"1 sample of delay, a wall of {k:g} kN/m with {b} N s/m",
-        change=to.together(cell(1, 2, 1e3 * k), to.wall(damping=float(b))),
+        change=to.together(cell(1, None, 1e3 * k), to.wall(damping=float(b))),
     )
     for b in (0, 10, 20, 30, 40) for k in (0.1, 0.3, 1, 3, 10)
 ]  # fmt: skip
@@ -137,7 +135,7 @@ _FRICTION, _FRICTION_1 = (to.device("mechanics", coulomb=newton) for newton in (
 
 _ROBUSTNESS = [
     _robust("surface", "the hand starts on the wall's surface, without free air", to.approach(0.0)),
-    _robust("surface-K20", "the hand starts on the surface of a wall of 20 kN/m", to.approach(0.0), at=(1, 2, 20e3)),
+    _robust("surface-K20", "the hand starts on the surface of a wall of 20 kN/m", to.approach(0.0), at=(1, 20e3)),
     _robust("hold", "the hand presses for 120 s", to.scenario(seconds=120.0)),
     _robust("friction-0.3", "Coulomb friction 0.3 N", _FRICTION),
     _robust("friction-1", "Coulomb friction 1 N", _FRICTION_1),
@@ -149,7 +147,7 @@ _ROBUSTNESS = [
     _robust("device-0.1kg", "a device of 0.1 kg at the handle", to.device_mass(0.1)),
     _robust("device-0.6kg", "a device of 0.6 kg at the handle", to.device_mass(0.6)),
     _robust("wall-damping", "a wall with 5 N s/m", to.wall(damping=5.0)),
-    _robust("wall-damping-K2", "a wall of 2 kN/m with 10 N s/m", to.wall(damping=10.0), at=(1, 2, 2e3)),
+    _robust("wall-damping-K2", "a wall of 2 kN/m with 10 N s/m", to.wall(damping=10.0), at=(1, 2e3)),
     _robust("torque-permille", "torque in whole thousandths of the rated one", to.device("drive", permille=True)),
     _robust("told-damping+50", "laws designed for 1.5 times the true damping", believed=to.mistaken(damping=1.5)),
     _robust("told-mass+50", "laws designed for 1.5 times the true mass", believed=to.mistaken(mass=1.5)),
@@ -165,17 +163,17 @@ _ROBUSTNESS = [
     _robust("tapping-1.5Hz", "tapping 1.5 times a second; never at rest", to.tapping(1.5)),
     _robust("tapping-6Hz", "tapping 6 times a second; never at rest", to.tapping(6.0)),
     _robust("slow-press", "the hand takes 3 s to press, along a minimum-jerk path", _SLOW),
-    _robust("slow-press-d0", "slow press without delay", _SLOW, at=(0, 2, 10e3)),
-    _robust("slow-press-d2", "slow press at 2 samples of delay", _SLOW, at=(2, 2, 10e3)),
-    _robust("slow-press-K20", "slow press at 20 kN/m", _SLOW, at=(1, 2, 20e3)),
-    _robust("slow-press-d2K20", "slow press at 2 samples of delay and 20 kN/m", _SLOW, at=(2, 2, 20e3)),
+    _robust("slow-press-d0", "slow press without delay", _SLOW, at=(0, 10e3)),
+    _robust("slow-press-d2", "slow press at 2 samples of delay", _SLOW, at=(2, 10e3)),
+    _robust("slow-press-K20", "slow press at 20 kN/m", _SLOW, at=(1, 20e3)),
+    _robust("slow-press-d2K20", "slow press at 2 samples of delay and 20 kN/m", _SLOW, at=(2, 20e3)),
     _robust("slow-waves", "the target swings 5 mm at 1 Hz for 40 s, then rests", *_WAVES),
-    _robust("slow-waves-K20", "slow waves at 20 kN/m", *_WAVES, at=(1, 2, 20e3)),
+    _robust("slow-waves-K20", "slow waves at 20 kN/m", *_WAVES, at=(1, 20e3)),
     _robust("let-go", "impact, then the hand lets go at 3 s", to.hand(release_at=3.0)),
     _robust("slow-let-go", "slow press, then the hand lets go at 5 s", _SLOW, _LET_GO_LATE),
     _robust("slow-let-go-d2", "slow press at 2 samples of delay, then the hand lets go",
-            _SLOW, _LET_GO_LATE, at=(2, 2, 10e3)),
-    _robust("slow-let-go-K20", "slow press at 20 kN/m, then the hand lets go", _SLOW, _LET_GO_LATE, at=(1, 2, 20e3)),
+            _SLOW, _LET_GO_LATE, at=(2, 10e3)),
+    _robust("slow-let-go-K20", "slow press at 20 kN/m, then the hand lets go", _SLOW, _LET_GO_LATE, at=(1, 20e3)),
     _robust("pumping", "no hands: a drive of 20 kN/m pumps 20 s at 2 mm depth, 0.1 to 4 mm, 0.5 to 30 Hz",
             to.scenario(seconds=20.0), drives=_PUMPS),
 ]  # fmt: skip
@@ -209,7 +207,7 @@ _FAILING = [
             to.device("mechanics", cable_stiffness=1e5, backlash=5e-5)),
     _robust("torque-ripple", "the motor's torque ripples by 0.5 %, 26 times a turn", to.device("motor", ripple=5e-3)),
     _robust("torque-ripple-d2K20", "the same at 2 samples of delay and 20 kN/m",
-            to.device("motor", ripple=5e-3), at=(2, 2, 20e3)),
+            to.device("motor", ripple=5e-3), at=(2, 20e3)),
     _robust("current-noise", "the current of the drive has 5 mA of noise", to.device("drive", current_noise=5e-3)),
     _robust("current-offset", "10 mA of current that the drive does not show", to.device("drive", current_offset=0.01)),
 ]  # fmt: skip
@@ -236,7 +234,7 @@ _HANDS = [
             f"{name}-d2K20",
             f"`{name}` at 2 samples of delay and 20 kN/m",
             to.hand(model=model),
-            at=(2, 2, 20e3),
+            at=(2, 20e3),
         )
         for name, _, model in _MODELS
     ),
@@ -245,10 +243,10 @@ _HANDS = [
 _HOLDS = [
     _robust(name, f"the hand presses for 120 s, {summary}", to.scenario(seconds=120.0), at=at)
     for name, summary, at in (
-        ("hold-K20", "20 kN/m", (1, 2, 20e3)),
-        ("hold-d2K20", "2 samples of delay and 20 kN/m", (2, 2, 20e3)),
-        ("hold-K35", "35 kN/m", (1, 2, 35e3)),
-        ("hold-d2K35", "2 samples of delay and 35 kN/m", (2, 2, 35e3)),
+        ("hold-K20", "20 kN/m", (1, 20e3)),
+        ("hold-d2K20", "2 samples of delay and 20 kN/m", (2, 20e3)),
+        ("hold-K35", "35 kN/m", (1, 35e3)),
+        ("hold-d2K35", "2 samples of delay and 35 kN/m", (2, 35e3)),
     )
 ]
 
@@ -274,12 +272,6 @@ CONDITIONS: dict[str, Condition] = {
     )
 }
 
-#: Shorter names of conditions: d2K20 is d2b2K20, as d1K10 has a damping of 2 N s/m.
-ALIASES = {
-    short: name for name in CONDITIONS
-    if (short := name.replace("b2K", "K")) != name and short not in CONDITIONS
-}  # fmt: skip
-
 #: Groups of conditions: the names they stand for.
 GROUPS: dict[str, tuple[str, ...]] = {
     "five": tuple(c.name for c in _FIVE),
@@ -299,9 +291,9 @@ GROUPS: dict[str, tuple[str, ...]] = {
 def conditions(names: Iterable[str | Condition]) -> list[Condition]:
     """Return conditions by name or group, each once, in the order asked; a Condition stands for itself.
 
-    A name such as d2b1K15 that is none of `CONDITIONS` is understood, too: see `written_out`. K15 changes the stiffness
-    of the wall to 15 kN/m and leaves delay, device and the wall's damping as they are. A condition has the name by
-    which it was first asked for: d2K20, though the group `cells` calls it d2b2K20.
+    A name such as d2b1K15 that is none of `CONDITIONS` is understood, too: see `written_out`. Without b1 the
+    device keeps its damping; K15 changes the stiffness of the wall to 15 kN/m and leaves delay and device as they are.
+    A condition has the name by which it was first asked for.
 
     Parameters
     ----------
@@ -330,7 +322,7 @@ def _named(name: str) -> list[Condition]:
     """Return the conditions that a name stands for."""
     if name in GROUPS:
         return [CONDITIONS[one] for one in GROUPS[name]]
-    known = CONDITIONS.get(ALIASES.get(name, name))
+    known = CONDITIONS.get(name)
     if known is not None:
         return [known]
     numbers = written_out(name)
@@ -339,6 +331,6 @@ def _named(name: str) -> list[Condition]:
         raise ValueError(f"{near}; {GRAMMAR}")
     if numbers.name in CONDITIONS:
         return [CONDITIONS[numbers.name]]
-    if numbers.delay is None or numbers.damping is None:
+    if numbers.delay is None:
         return [wall_of(1e3 * numbers.kilo)]
     return [_cell(numbers.name, numbers.delay, numbers.damping, numbers.kilo)]

@@ -32,7 +32,7 @@ SLOWER, LATER = 1.5, 0.2
 def study(
     population: Operators,
     laws: Laws = LAWS,
-    conditions: Sequence[str | Condition] = ("d1K10",),
+    conditions: Sequence[str | Condition] | None = None,
     *,
     base: Scenario | None = None,
     seed: int | None = None,
@@ -51,7 +51,7 @@ def study(
     laws : law, sequence of laws, or mapping of names to laws
         As `sweep` takes them; default: `direct`, `tca`, `tca-damped`, `eba`, `ebac`.
     conditions : sequence of str or Condition
-        Names of `CONDITIONS` or `GROUPS`, or conditions of your own.
+        Names of `CONDITIONS` or `GROUPS`, or conditions of your own; default: "d1K10", and "as-given" with a `base`.
     base : Scenario, optional
         What conditions change; default: the reference scenario.
     seed : int
@@ -69,6 +69,8 @@ def study(
         When hands come to rest before the surface.
     """
     require(population, Operators, "ebac.study", "a population, an Operators")
+    if conditions is None:
+        conditions = ["d1K10" if base is None else "as-given"]
     chosen = tuple(find(conditions))
     if not chosen:
         raise ValueError("no condition given: a study needs at least one")

@@ -13,8 +13,9 @@ def conditions(as_json: output.AsJson = False) -> None:
     """List the conditions of a study and their groups.
 
     A name such as d1b2K10 stands for 1 sample of delay, device damping 2 N s/m, and a wall of 10 kN/m. Any other
-    numbers may be written in their places where a condition is asked for: d2b0.5K15, or d2K15 with 2 N s/m. K15 changes
-    the stiffness of the wall only: delay, device and the wall's damping are those of the scenario.
+    numbers may be written in their places where a condition is asked for: d2b0.5K15, or d2K15, which leaves the device
+    its damping. K15 changes the stiffness of the wall only: delay, device and the wall's damping are those of the
+    scenario.
 
     **Examples**
 
