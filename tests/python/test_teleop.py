@@ -238,6 +238,28 @@ def test_cuts_do_not_renew_the_reserve(name: str) -> None:
         assert run.least_network_J > -6e-3
 
 
+@pytest.mark.parametrize("name", ["ebac", "two-port-ebac", "two-port-passivity", "waves"])
+def test_no_slave_freezes_after_many_cuts(name: str) -> None:
+    """A slave whose reserve stayed spent never moved again: nothing came in at a master without a force."""
+    run = teleop.simulate(
+        name,
+        hand=Hand(path=Sine(centre=0.02, amplitude=0.015, frequency=0.5, phase=-np.pi / 2)),
+        there=Link(delay=0.02, cut_every=7, cut_length=1),
+        seconds=120,
+    )
+    last = run["t"] > 100
+    assert np.ptp(run["true_x"][last]) > 0.02
+    assert np.ptp(run["target"][last]) > 2e-3
+
+
+def test_a_buffer_beyond_the_receivers_memory_and_a_time_out_within_a_tick_are_refused() -> None:
+    quick, slow = (Scenario(timing=Timing(dt=dt)) for dt in (2.5e-4, 0.02))
+    with pytest.raises(ValueError, match=r"Coupling.buffer = 0.3 s: must lie in \[0, 0.2555\]"):
+        teleop.simulate("ebac", buffer=0.3, scenario=quick)
+    with pytest.raises(ValueError, match=r"Coupling.timeout = 0.01 s: must be longer than two"):
+        teleop.simulate("ebac", timeout=0.01, scenario=slow)
+
+
 def test_waves_over_counts_give_out_their_reserve_alone() -> None:
     """On the encoder alone they give out 20 mJ in 20 s here, and go on: bv acts in phase with its counts."""
     run = teleop.simulate(
@@ -565,6 +587,8 @@ def test_a_slave_that_was_held_up_does_not_hit() -> None:
 @pytest.mark.slow
 @pytest.mark.weekly
 def test_endurance_finds_what_is_beyond_a_limit(monkeypatch: pytest.MonkeyPatch) -> None:
+    from ebac.cli.teleop.endurance import _row, _show
+
     monkeypatch.setattr(sys.modules["ebac.teleop.endurance"], "master_limit", lambda: -1.0)
     link = Link(delay=0.02, cut_every=3, cut_length=1)
     found = teleop.endurance(5, link=link, consent_after=0.2)
@@ -576,6 +600,7 @@ def test_endurance_finds_what_is_beyond_a_limit(monkeypatch: pytest.MonkeyPatch)
         assert times == sorted(times)
         assert sum("LINK LOST" in words for _, words in found.events[name]) == found.reported[name]
     assert all(len(values) > 3 for values in found.memory.values())
+    _show([_row(found, name) for name in found.reports], found.faults)  # a network has no force
 
 
 def test_a_process_that_does_not_end_is_killed() -> None:
@@ -614,7 +639,7 @@ def test_command_line(tmp_path: Path) -> None:
     noisy = CliRunner().invoke(app, [*words[:-1], str(tmp_path / "n"), "--device-noise", "0.03"])
     assert json.loads(noisy.stdout)["rows"] != json.loads(done.stdout)["rows"]
     wide = CliRunner().invoke(app, [*words[:7], "--device", "joystick"])
-    assert "has 2 axes; teleoperation has 1" in wide.output
+    assert "has 2 axes; teleoperation is for one axis" in wide.output
     wrong = CliRunner().invoke(app, ["teleop", "master", "--peer", "nowhere"])
     assert wrong.exit_code == 2
     assert "must be an address and a port" in wrong.output

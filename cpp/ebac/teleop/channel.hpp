@@ -48,9 +48,9 @@ struct Link {
 inline const Link& checked_link(const Link& link) {
   check(link, "Link");
   if (link.cut_every > 0 && !(link.cut_length > 0 && link.cut_length < link.cut_every)) {
-    throw std::invalid_argument("Link.cut_length = " + shortest(link.cut_length) +
-                                " s: must lie above 0 s and below cut_every = " +
-                                shortest(link.cut_every) + " s");
+    throw std::invalid_argument(
+        "Link.cut_length = " + shortest(link.cut_length) +
+        " s: must lie above 0 s and below cut_every = " + shortest(link.cut_every) + " s");
   }
   if (link.cut_length > 0 && !(link.cut_every > 0)) {
     throw std::invalid_argument("Link.cut_length = " + shortest(link.cut_length) +

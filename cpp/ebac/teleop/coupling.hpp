@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <stdexcept>
 
+#include "ebac/core/check.hpp"
 #include "ebac/core/fields.hpp"
 #include "ebac/core/realtime.hpp"
 
@@ -75,6 +78,25 @@ struct Coupling {
     };
   }
 };
+
+/// Packets that a receiver keeps for its play-out buffer.
+inline constexpr std::uint32_t kRing = 1024;
+
+/// Returns the coupling; throws std::invalid_argument for a field out of its range, a buffer of more packets than a
+/// receiver keeps, and a time-out within a tick of `dt` [s].
+inline const Coupling& checked_coupling(const Coupling& coupling, double dt) {
+  check(coupling, "Coupling");
+  if (!(coupling.buffer < (kRing - 1) * dt)) {
+    throw std::invalid_argument(
+        range_message("Coupling", "buffer", coupling.buffer, "s", 0, (kRing - 2) * dt) +
+        ", as many packets as a receiver keeps");
+  }
+  if (!(coupling.timeout > 2 * dt)) {
+    throw std::invalid_argument("Coupling.timeout = " + shortest(coupling.timeout) +
+                                " s: must be longer than two ticks, " + shortest(2 * dt) + " s");
+  }
+  return coupling;
+}
 
 /// What comes in is followed with this lag: encoder counts would be blows otherwise [s].
 inline constexpr double kSmooth = 5e-3;

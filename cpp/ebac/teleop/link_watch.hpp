@@ -63,7 +63,7 @@ class LinkWatch {
  private:
   static constexpr int kSteady = 100;  // packets before the link counts as back
 
-  static constexpr double kRoundTrip = 1;  // s, longer than any
+  static constexpr double kRoundTrip = 2.5;  // s, longer than any of two links and buffers
 
   double timeout_;
   double step_;

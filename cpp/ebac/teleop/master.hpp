@@ -21,7 +21,7 @@ namespace ebac::teleop {
 class MasterSide {
  public:
   MasterSide(const Setup& setup, const AnyLaw& law, const Coupling& coupling, std::uint32_t run = 0)
-      : coupling_(checked(coupling, "Coupling")),
+      : coupling_(checked_coupling(coupling, setup.timing.dt)),
         dt_(setup.timing.dt),
         lag_(static_cast<std::uint32_t>(setup.timing.delay) + 1),
         device_(setup),

@@ -7,6 +7,7 @@
 
 #include "ebac/core/fields.hpp"
 #include "ebac/core/realtime.hpp"
+#include "ebac/teleop/coupling.hpp"
 #include "ebac/teleop/packet.hpp"
 
 namespace ebac::teleop {
@@ -102,7 +103,6 @@ class Receiver {
   const Arrivals& arrivals() const EBAC_RT { return arrivals_; }
 
  private:
-  static constexpr std::uint32_t kRing = 1024;
   static constexpr std::uint32_t kJump =
       60'000;  // packets: a minute; more within a session is none of its own
   static constexpr double kFollow = 0.002;  // of the distance, in each tick

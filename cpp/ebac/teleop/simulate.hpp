@@ -49,12 +49,15 @@ struct Row {
         F{"master_in", &Row::master_in, "J", "into the network at the master, this session"},
         F{"master_out", &Row::master_out, "J", "out of the network at the master, this session"},
         F{"master_allowed", &Row::master_allowed, "J",
-          "went in at the slave, as far as the master knows"},
-        F{"dissipated", &Row::dissipated, "J", "by law and passivity controller of the master"},
+          "went in at the slave this session, as far as the master knows; under waves, the energy "
+          "of the wave that came back"},
+        F{"dissipated", &Row::dissipated, "J",
+          "by law, passivity controller and damping of the master, this session"},
         F{"slave_in", &Row::slave_in, "J", "into the network at the slave, this session"},
         F{"slave_out", &Row::slave_out, "J", "out of the network at the slave, this session"},
         F{"slave_allowed", &Row::slave_allowed, "J",
-          "went in at the master, as far as the slave knows"},
+          "went in at the master this session, as far as the slave knows; under waves, the energy "
+          "of the wave that came in"},
         F{"network", &Row::network, "J",
           "energy both ports put into the network, law and controller included: passive where "
           "never below 0"},

@@ -58,7 +58,7 @@ class SlaveSide {
 
   SlaveSide(const SlaveModel& model, const Coupling& coupling, double dt)
       : model_(checked(model, "SlaveModel")),
-        coupling_(checked(coupling, "Coupling")),
+        coupling_(checked_coupling(coupling, dt)),
         dt_(dt),
         session_(Role::kSlave, coupling, dt) {
     if (scheme() == Scheme::kWaves) coupling_.damping = coupling_.impedance;  // matched
@@ -109,7 +109,8 @@ class SlaveSide {
   Scheme scheme() const EBAC_RT { return static_cast<Scheme>(coupling_.scheme); }
 
   void begin() EBAC_RT {
-    port_.begin(scheme() == Scheme::kWaves ? wave_left() : port_.left());
+    // Passivity control without a reserve would never begin to move; what it may give out goes into the environment.
+    port_.begin(scheme() == Scheme::kWaves ? wave_left() : 0.0);
     aligned_ = false;
     if (!(coupling_.realign > 0)) known_ = false;
     last_ = scheme() == Scheme::kWaves ? 0.0 : state_.target;

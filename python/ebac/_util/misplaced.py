@@ -55,7 +55,7 @@ def misplaced(path: Path, table: Mapping[str, Any], error: Exception) -> Misplac
         return error
     said = str(error.args[0]) if error.args else str(error)
     said = re.sub(": must be bool$", ": must be true or false", said)
-    said = _IN_PYTHON.sub(lambda found: f"give {found[2]} in [{dotted((*path, found[1]))}]", said)
+    said = _IN_PYTHON.sub(lambda found: f"give {found[2]} in [{_table(path, found[1])}]", said)
     if path and (found := re.match(rf"{re.escape(dotted(path))}(?:\.(\w+))?(?= = |: )", said)):
         return Misplaced((*path, *filter(None, found.groups())), said[found.end() :])
     if found := _NO_SUCH.match(said):
@@ -65,6 +65,11 @@ def misplaced(path: Path, table: Mapping[str, Any], error: Exception) -> Misplac
         if key := _key(found[1], found[2], table):
             return Misplaced((*path, *key), f": {said}" if found.start() else said[found.end() :])
     return Misplaced(path, f": {said}")
+
+
+def _table(path: Path, part: str) -> str:
+    """Return the name of a table of a part, seen from a path in it or above it."""
+    return dotted(path if path[-1:] == (part,) else (*path, part))
 
 
 def _key(kind: str, field: str, table: Mapping[str, Any]) -> tuple[str, ...]:

@@ -102,8 +102,9 @@ class Run:
 
     @property
     def two_port_passive(self) -> bool:
-        """Both ports together gave out at most 1 mJ."""
-        return self.least_network_J >= -SPARE
+        """Both ports together gave out at most 1 mJ beyond the reserves of the scheme."""
+        coupling = self.scheme.coupling
+        return self.least_network_J >= -SPARE - (2 * coupling.reserve if coupling.scheme else 0)
 
     @property
     def transparency(self) -> float:
@@ -214,7 +215,9 @@ def simulate(
         raise ValueError(f"consent_after = {consent_after:g} s: must be at least 0 s")
     given = Scenario() if scenario is None else scenario
     if given.device.axes != 1:
-        raise ValueError(f"device: has {given.device.axes} axes; teleoperation has 1 so far")
+        raise ValueError(
+            f"device: has {given.device.axes} axes; teleoperation is for one axis so far"
+        )
     path = hand or Hand(path=[MinimumJerk(target=0.045, at=1.2, duration=0.8)])
     full = given.replace(environment=Free(), hand=path, seconds=seconds, seed=seed)
     setup = on_its_observer(full, law or chosen.law).setup()

@@ -12,7 +12,7 @@ import numpy as np
 from ebac._core import STILL_SWING, Hand, Link, MinimumJerk, SlaveModel
 from ebac._util.arguments import named, require, several
 from ebac._util.report import report
-from ebac.teleop.run import SPARE, Run, simulate
+from ebac.teleop.run import Run, simulate
 from ebac.teleop.schemes import SCHEMES, Scheme, chosen_scheme
 
 if TYPE_CHECKING:
@@ -211,7 +211,6 @@ def _row(runs: Sequence[Run], contact: str, network: str, delay: float) -> Study
     one, stiffness = runs[0].scheme, runs[0].slave.contact_stiffness
     shakes = [shaking(run) for run in runs]
     ratios = [run.transparency for run in runs if np.isfinite(run.transparency)]
-    spare = SPARE + (2 * one.coupling.reserve if one.coupling.scheme else 0.0)
     return StudyRow(
         scheme=one.name,
         contact=contact,
@@ -222,7 +221,7 @@ def _row(runs: Sequence[Run], contact: str, network: str, delay: float) -> Study
         still=sum(shake < STILL_SWING for shake in shakes),
         bounded=sum(bool(np.abs(run["true_x"]).max() < BOUND) for run in runs),
         passive=sum(run.passive for run in runs),
-        two_port_passive=sum(run.least_network_J >= -spare for run in runs),
+        two_port_passive=sum(run.two_port_passive for run in runs),
         shaking_m=max(shakes),
         swing_m=max(run.swing_m for run in runs),
         least_master_J=min(run.least_master_J for run in runs),

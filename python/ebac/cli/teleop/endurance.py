@@ -81,16 +81,18 @@ def _row(found: Endurance, name: str) -> dict[str, Any]:
 
 
 def _show(rows: list[dict[str, Any]], faults: list[str]) -> None:
+    from ebac._util.formatting import quantity
+
     columns = ["process", "lost", "reported", "largest force", "at", "farthest", "memory", "growth"]
     grid = output.table(columns, numbers=range(1, 8))
     for row in rows:
         grid.add_row(
             row["process"],
-            str(row["losses"]),
+            "-" if row["losses"] is None else str(row["losses"]),
             str(row["reported"]),
-            f"{row['most_force_N']:.1f} N",
-            f"{row['most_force_at_s']:.1f} s",
-            f"{1e3 * row['farthest_m']:.1f} mm",
+            quantity(row["most_force_N"], "N"),
+            quantity(row["most_force_at_s"], "s"),
+            quantity(row["farthest_m"], "m"),
             f"{row['memory_B'] / 1e6:.1f} MB",
             f"{row['growth_B'] / 1e3:.0f} kB",
         )
