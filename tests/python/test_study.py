@@ -3,7 +3,6 @@
 import csv
 import json
 import pickle
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -404,9 +403,20 @@ def test_what_cannot_be_is_refused(words: tuple[str, ...], message: str, hands_c
     assert list(hands_csv.parent.iterdir()) == [hands_csv]
 
 
-def test_a_condition_without_its_damping_has_the_reference_damping() -> None:
-    (found,) = find(["d2K20"])
-    assert found == replace(CONDITIONS["d2b2K20"], name="d2K20")
+def test_a_condition_leaves_the_device_its_damping_unless_its_name_has_one() -> None:
+    light = ebac.Device(mechanics=ebac.Mechanics(damping=0.5))
+    own = ebac.Scenario(device=light)
+    for name in ("d2K20", "d1K10", "slow-press-d2K20", "B10K1", "hold-K20"):
+        (found,) = find([name])
+        assert found.change(own).device == light, name
+    (found,) = find(["d2b4K20"])
+    assert found.change(own).device.mechanics.damping == 4
+
+
+def test_a_study_with_a_base_of_ones_own_leaves_it_as_it_is() -> None:
+    own = ebac.Scenario(environment=ebac.Wall(stiffness=5e3), seconds=0.5)
+    assert study(FEW[:1], ["tca"], base=own).rows[0].condition == "as-given"
+    assert study(FEW[:1], ["tca"]).rows[0].condition == "d1K10"
 
 
 def test_the_conditions_are_listed() -> None:
