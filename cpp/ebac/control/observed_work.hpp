@@ -17,7 +17,8 @@ namespace ebac {
 /// for what the force changes in a tick beyond 0.05 N: motion faster than the observer follows.
 /// 0.05 N are for a sensor of 0.03 N of noise, and grow with the noise that is declared. Of a finer
 /// encoder the charge takes the count that the observer reckons with (`observer_count`): what the
-/// force does within a tick is unknown however fine the counts are.
+/// force does within a tick is unknown however fine the counts are. The device's damping takes in
+/// what the smaller motion of reading and estimate gives: a reading that crosses an edge jumps by a count.
 ///
 /// Declared, not proven, is the rest: that mass, lags and sensor are as given. A motion below 20 Hz
 /// within one count is not seen, and can draw at most a count times the swing of the force a cycle,
@@ -47,7 +48,7 @@ class ObservedWork {
     const double moved = port.dx + within - within_;
     const double uneven = moment * (port.est.v - v_);
     const double fast = std::max(0.0, std::abs(mean - mean_) - slow_);
-    const double sure = std::max(std::abs(port.dx) - half_, 0.0);
+    const double sure = std::min(std::max(std::abs(port.dx) - half_, 0.0), std::abs(moved));
     within_ = within;
     v_ = port.est.v;
     mean_ = mean;
