@@ -25,6 +25,7 @@ from ebac._core import (
 from ebac._util.arguments import keywords_only, refuse_unknown, require, require_path, shown
 from ebac._util.copying import refuse_uncopyable
 from ebac._util.misplaced import Misplaced, misplaced
+from ebac._util.plural import plural
 from ebac._util.serialisation import SHAPES
 from ebac._util.text_file import read_text
 from ebac._util.toml_lines import placed
@@ -173,7 +174,7 @@ class Scenario:
         for axis, path in enumerate(self.hand.path[axes:], start=axes):
             if path != Step(target=0):
                 raise ValueError(
-                    f"Scenario.hand.path[{axis}] = {path!r}: the device has {axes} axes; "
+                    f"Scenario.hand.path[{axis}] = {path!r}: the device has {plural(axes, 'axis', 'axes')}; "
                     "give it one path for each, or a device with more"
                 )
 

@@ -412,7 +412,7 @@ def test_a_world_one_axis_would_never_feel_is_refused(world: Any) -> None:
 
 def test_a_path_for_an_axis_the_device_does_not_have_is_refused() -> None:
     hand = ebac.Hand(path=[ebac.Step(), ebac.Step(target=0.01)])
-    with pytest.raises(ValueError, match=r"hand\.path\[1\] = Step.*the device has 1 axes"):
+    with pytest.raises(ValueError, match=r"hand\.path\[1\] = Step.*the device has 1 axis"):
         ebac.simulate(ebac.Scenario(hand=hand), "direct")
 
 
