@@ -137,23 +137,23 @@ def test_a_note_says_what_a_condition_replaces_of_a_scenario(tmp_path: Path) -> 
         device=ebac.Device(mechanics=ebac.Mechanics(damping=5, coulomb=0.2)),
     )
     mine.save(file)
-    text = told(*study, "-c", "d2K15")
+    text = told(*study, "-c", "d2b2K15")
     assert text == (
-        "Note: of the scenario condition d2K15 replaces device.mechanics.damping = 5 N s/m by 2; "
+        "Note: of the scenario condition d2b2K15 replaces device.mechanics.damping = 5 N s/m by 2; "
         "environment.stiffness = 3000 N/m by 15000; timing.delay = 3 samples by 2."
     )
     text = told(*study, "-c", "K5,K10")
     assert text.removeprefix("Note: of the scenario the conditions replace ") == (
         "environment.stiffness = 3000 N/m by 5000 or 10000."
     )
-    text = told(*study, "-c", "d1K10,d3b5K10")
+    text = told(*study, "-c", "d1b2K10,d3b5K10")
     assert "the conditions replace device.mechanics.damping = 5 N s/m by 2; " in text
     assert "environment.stiffness = 3000 N/m by 10000" in text
     assert "timing.delay = 3 samples by 1." in text
     few = ("--law", "tca", "--beside", "eba")  # of few pieces
     ablation = ("ablation", *few, "--population", str(hands), "--json", "--scenario", str(file))
     text = told(*ablation)
-    assert "the conditions replace device.mechanics.damping = 5 N s/m by 2; " in text
+    assert "device.mechanics.damping = 5 N s/m by 2; " in text  # by d2b2K20
     assert told(*study) == "", "as it is given"
     ebac.Scenario(seconds=3).save(file)
     assert told(*study, "-c", "d1K10") == ""
