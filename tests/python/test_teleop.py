@@ -57,7 +57,7 @@ def test_the_layout_is_the_one_that_is_documented() -> None:
 
     wire = packet().encode()
     assert struct.unpack("<2sBBIIIqdddII7dI", wire) == (
-        *(b"ET", 3, 5, 3, 70000, 5, -1, 0.01, 2.0, -3.0, 4, 7),
+        *(b"ET", 4, 5, 3, 70000, 5, -1, 0.01, 2.0, -3.0, 4, 7),
         *(0.1, 0.2, 0.3, 1.0, 2.0, 3.0, 4.0),
         zlib.crc32(wire[:112]),
     )

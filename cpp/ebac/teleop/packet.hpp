@@ -15,7 +15,7 @@ namespace ebac::teleop {
 ///
 ///     offset  type    content
 ///      0      u8[2]   'E' 'T'
-///      2      u8      version, 3
+///      2      u8      version, 4
 ///      3      u8      flags: 1 from the slave, 2 this side has lost the link, 4 this side ends, and 8 times its scheme
 ///      4      u32     session: the hand's consents so far
 ///      8      u32     sequence number, from 1 in each session
@@ -33,7 +33,7 @@ namespace ebac::teleop {
 /// A master and a slave of one axis leave the last three at 0.
 struct Packet {
   static constexpr std::size_t kSize = 116;
-  static constexpr std::uint8_t kVersion = 3;
+  static constexpr std::uint8_t kVersion = 4;
   using Wire = std::array<std::uint8_t, kSize>;
 
   bool from_slave = false;

@@ -192,7 +192,7 @@ def simulate(
     consent_after : float
         After a lost link came back, the simulated hand consents in this time [s]; inf for never.
     scenario : Scenario, optional
-        For a device or a timing of your own; its world is not used.
+        For a device, a timing or an observer of your own; its world and its hand are not used.
     **changes
         Parameters of the coupling, as `impedance=30`.
 

@@ -63,7 +63,8 @@ def master(
     """Run a simulated stick with its hand and law at 1 kHz, connected to a slave over UDP.
 
     The hand swings the stick between 5 and 35 mm. When the link is lost, the force fades to zero; once it is back,
-    the hand has to consent (Enter) before the slave moves again. Give the slave the same scheme.
+    the hand has to consent (Enter) before the slave moves again. Give the slave the same scheme. Of `--scenario`
+    device, timing and observer are used.
 
     **Examples**
 

@@ -49,7 +49,7 @@ def run(
 
     A hand moves the stick to 45 mm; the slave follows through the network and meets a spring at 20 mm. The table
     shows the swing of the stick at rest, the energies of the master's port and of both ports, and the stiffness at
-    the stick divided by that at the slave.
+    the stick divided by that at the slave. Of `--scenario` device, timing and observer are used.
 
     **Examples**
 

@@ -51,7 +51,8 @@ def study(
     """Compare schemes in free motion, on soft tissue and on a hard contact, over delay, jitter and loss.
 
     A simulation of three hands in each case. The parameters of each scheme were the best on a training set of other
-    contacts, delays and hands, with `--device-noise 0.03`; `--tune` repeats that search.
+    contacts, delays and hands, with `--device-noise 0.03`; `--tune` repeats that search. Of `--scenario`
+    device, timing and observer are used.
 
     **Examples**
 
