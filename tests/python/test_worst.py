@@ -265,6 +265,21 @@ def test_the_worst_hand_is_written_so_that_it_can_be_replayed(tmp_path: Path) ->
     assert f"ebac wall --law ebac --scenario out/worst-{rows[0]['family']}.toml" in shown
 
 
+def test_several_laws_are_each_searched_with_the_same_seed(tmp_path: Path) -> None:
+    words = ("--family", "impact,tapping", "--evaluations", 40, "--law", "eba,ebac", "--out", "out")
+    shown = " ".join(command(*words).stdout.split())
+    assert "The worst hand of each law, d1K10" in shown
+    for law in ("eba", "ebac"):
+        assert f"ebac wall --law {law} --scenario out/worst-{law}.toml" in shown
+    assert {file.name for file in (tmp_path / "out").iterdir()} == {
+        "worst.json", "worst.csv", "worst-eba.png", "worst-eba.toml", "worst-ebac.png", "worst-ebac.toml",
+    }  # fmt: skip
+    document = json.loads((tmp_path / "out" / "worst.json").read_text())
+    assert document["declared_pull_N"] == 20.0
+    alone = [worst(law, family=["impact", "tapping"], evaluations=40) for law in ("eba", "ebac")]
+    assert document["rows"] == [row for one in alone for row in one.rows()]
+
+
 @pytest.mark.slow
 def test_a_short_search_says_that_it_proves_less() -> None:
     words = ("--family", "impact", "--no-files", "--evaluations")
@@ -303,6 +318,10 @@ def test_a_law_that_is_told_otherwise_is_not_replayed_by_a_scenario() -> None:
             ("--change", "guard=off", "--change", "kp=0"),
             "--change kp=0: one law is searched, and --change guard=off was given already; "
             "separate the changes by commas: --change guard=off,kp=0",
+        ),
+        (
+            ("--change", "kp=0", "--law", "tca,ebac"),
+            "--change kp=0: changes one law, not 2; give one --law, as --law tca",
         ),
         (("--condition", "five"), "give one"),
         (("--pull", "-1"), "pull = -1 N: must lie in"),
