@@ -407,6 +407,7 @@ def test_a_fault_is_told_and_its_log_kept(monkeypatch: pytest.MonkeyPatch, tmp_p
             "extra: `ebac wall` takes no argument, only options; quote a value that has",
         ),
         ("wall one two", "one two: `ebac wall` takes no argument"),
+        ("specs mine.toml", "a file is given as --scenario mine.toml"),
         (
             "bus load joystick",
             "joystick: `ebac bus load` takes no argument, only options; `ebac drive plan FILE` prints",

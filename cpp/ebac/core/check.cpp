@@ -5,6 +5,20 @@
 #include <stdexcept>
 
 namespace ebac {
+namespace {
+
+/// "; 40 mm is 0.04 m" where a value beyond its range would lie in it, had it been meant in thousandths.
+std::string in_thousandths(double value, std::string_view unit, double low, double high) {
+  const double meant = value / 1000;
+  if (!(value > high && meant >= low && meant <= high)) return {};
+  const std::string_view small = unit == "m" ? "mm" : unit == "kg" ? "g" : unit == "s" ? "ms" : "";
+  if (small.empty()) return {};
+  std::string text("; ");
+  text.append(shortest(value)).append(" ").append(small).append(" is ");
+  return text.append(shortest(meant)).append(" ").append(unit);
+}
+
+}  // namespace
 
 std::string shortest(double value) {
   std::array<char, 32> text{};
@@ -23,7 +37,8 @@ std::string range_message(std::string_view owner, std::string_view name, double 
       .append(", ")
       .append(shortest(high))
       .append("]");
-  return text.append(gap).append(of);
+  text.append(gap).append(of);
+  return text.append(in_thousandths(value, unit, low, high));
 }
 
 void check_fields(const FieldTable& table, const void* value, std::string_view owner) {

@@ -152,13 +152,16 @@ def _plain(message: str, wrong: str | None, error: Any) -> str:
         return f"{wrong}: needs a value after it"
     found = re.search(r"unexpected extra argument(?:s|\(s\))? \((.*)\)", message)
     if found:
-        return f"{found[1]}: {_too_many(error.ctx)}"
+        return f"{found[1]}: {_too_many(error.ctx, found[1])}"
     return f"{message[0].lower()}{message[1:]}"
 
 
-def _too_many(context: Any) -> str:
+def _too_many(context: Any, words: str) -> str:
     name = context.command_path.removeprefix("python -m ").partition(" ")[2]
-    remedy = f"{INSTEAD.get(name, 'quote a value that has spaces')}, or see --help"
+    remedy = INSTEAD.get(name, "quote a value that has spaces")
+    if words.endswith(".toml") and any("--scenario" in p.opts for p in context.command.params):
+        remedy = f"a file is given as --scenario {words}"
+    remedy += ", or see --help"
     if any(param.param_type_name == "argument" for param in context.command.params):
         return f"too many words; {remedy}"
     return f"`ebac {name}` takes no argument, only options; {remedy}"
