@@ -6581,7 +6581,7 @@ class EBACPrinted:
 
 class EBAC:
     """
-    eq. (8) to (10) and (2), completed: recovery, damping, guard.
+    observer, damper, energy account; without the observer eq. (2), (8) to (10), completed.
 
     Parameters
     ----------
@@ -6655,7 +6655,7 @@ class EBAC:
         @property
         def beta(self) -> float:
             """
-            slope dF/dx taken, eq. (9); NaN where dx = 0 [N/m]
+            slope dF/dx taken, eq. (9); NaN where dx = 0, and with the observer [N/m]
             """
         @property
         def beta_max(self) -> float:
@@ -6700,7 +6700,7 @@ class EBAC:
 
     name: typing.ClassVar[str] = "ebac"
     passive: typing.ClassVar[bool] = False
-    summary: typing.ClassVar[str] = "eq. (8) to (10) and (2), completed: recovery, damping, guard"
+    summary: typing.ClassVar[str] = "observer, damper, energy account; without the observer eq. (2), (8) to (10), completed"
     @staticmethod
     def _press(
         setups: collections.abc.Sequence[Setup],

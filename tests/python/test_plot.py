@@ -282,3 +282,15 @@ def test_a_figure_of_one_law_names_the_observer_where_the_law_uses_it(
 def test_of_a_law_that_is_not_known_a_title_says_what_the_scenario_says() -> None:
     described = formatting.describe(ebac.Scenario())
     assert for_law(described, "mine") == described
+
+
+def test_a_law_that_does_not_limit_beta_says_so_where_beta_would_stand() -> None:
+    scenario = ebac.Scenario(seconds=0.2)
+    trace = ebac.simulate(scenario, "ebac")
+    why = "with the state observer ebac does not limit beta"
+    assert why in trace.plot().get_suptitle()
+    (panel,) = trace.plot("law.beta").axes
+    legend = panel.get_legend()
+    assert legend is not None and why in legend.get_texts()[0].get_text()
+    for other in ("eba", ebac.Variant("ebac", {"observer": False})):
+        assert "does not limit" not in ebac.simulate(scenario, other).plot().get_suptitle()

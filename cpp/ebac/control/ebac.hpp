@@ -33,7 +33,7 @@ class Ebac {
  public:
   static constexpr std::string_view kName = "ebac";
   static constexpr std::string_view kSummary =
-      "eq. (8) to (10) and (2), completed: recovery, damping, guard";
+      "observer, damper, energy account; without the observer eq. (2), (8) to (10), completed";
   static constexpr bool kPassive = false;  // guarded; see docs/explanation/theory.md
 
   using Params = EbacParams;

@@ -105,7 +105,8 @@ struct EbacState : BetaTrace {
   static constexpr auto fields() {
     using F = Field<EbacState>;
     return std::array{
-        beta_field<EbacState>(),
+        F{"beta", &EbacState::beta, "N/m",
+          "slope dF/dx taken, eq. (9); NaN where dx = 0, and with the observer"},
         beta_min_field<EbacState>(),
         beta_max_field<EbacState>(),
         F{"f_d", &EbacState::f_d, "N",

@@ -12,7 +12,7 @@ from ebac._util.arguments import require, several
 from ebac._util.arrays import Values
 from ebac._util.gaps import alone
 from ebac.plot.decades import limit_of, set_decades
-from ebac.plot.marks import mark_end, title
+from ebac.plot.marks import mark_end, no_beta, title
 from ebac.plot.style import Picture, dress, legend, line, new_figure
 from ebac.trace import Trace
 
@@ -112,4 +112,6 @@ def _lines(trace: Trace, columns: Sequence[str]) -> Iterator[tuple[str, Values]]
         for axis in range(1 if trace[name].ndim == 1 else trace.axes):
             label = name if trace[name].ndim == 1 else f"{name}, axis {axis}"
             values = trace.axis(name, axis)
-            yield label if np.isfinite(values).any() else f"{label}: no numbers", values
+            if not np.isfinite(values).any():
+                label += f": {no_beta(trace)}" if name.startswith("law.beta") else ": no numbers"
+            yield label, values

@@ -51,6 +51,14 @@ def acts_on_observer(trace: Trace) -> bool:
     return use is not None and use.fallback.get("off", 0.0) < 1
 
 
+def no_beta(trace: Trace) -> str:
+    """Return why beta has no numbers in a run whose law records it."""
+    own = hasattr(LAWS.get(trace.law.partition(" ")[0]), "observer")
+    if own and acts_on_observer(trace):
+        return f"with the state observer {trace.law} does not limit beta"
+    return "no numbers"
+
+
 def for_laws(described: str, traces: Sequence[Trace]) -> str:
     """Return a scenario in words, of whose state observer it says which of the laws use it."""
     if not all("est.bound" in trace for trace in traces):

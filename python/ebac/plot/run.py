@@ -13,7 +13,7 @@ from ebac._util.arguments import require
 from ebac._util.arrays import Values
 from ebac.plot.columns import plot_columns
 from ebac.plot.decades import limit_of, set_decades
-from ebac.plot.marks import mark_end, title, used_axes
+from ebac.plot.marks import mark_end, no_beta, title, used_axes
 from ebac.plot.style import (
     QUANTITIES,
     Picture,
@@ -96,6 +96,8 @@ def plot_trace(trace: Trace) -> Picture:
     figure.align_ylabels()
     idle = [str(axis) for axis in range(trace.axes) if axis not in used]
     note = f"\naxis {', '.join(idle)} not in use, not shown" if idle else ""
+    if "law.beta" in trace and _beta not in panels:
+        note += f"\nbeta is not shown: {no_beta(trace)}"
     figure.suptitle(title(trace) + note, fontsize="medium")
     return figure
 
