@@ -6700,7 +6700,9 @@ class EBAC:
 
     name: typing.ClassVar[str] = "ebac"
     passive: typing.ClassVar[bool] = False
-    summary: typing.ClassVar[str] = "observer, damper, energy account; without the observer eq. (2), (8) to (10), completed"
+    summary: typing.ClassVar[str] = (
+        "observer, damper, energy account; without the observer eq. (2), (8) to (10), completed"
+    )
     @staticmethod
     def _press(
         setups: collections.abc.Sequence[Setup],

@@ -287,7 +287,7 @@ def test_mat_is_read(tmp_path: Path, trace: ebac.Trace) -> None:
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        ("t,y\n" + "0,1\n" * 60, "found no position among t, y"),
+        ("t,y\n" + "0,1\n" * 60, "found no position and no force of the hand among t, y"),
         ("t,x\n0,1\n1,2\n2,3\n", "3 rows; needs at least 50"),
         ("t,x\n" + "".join(f"{i},5\n" for i in range(60)), "x is constant at 5 m"),
         (

@@ -72,3 +72,22 @@ def test_a_file_of_a_time_and_a_force_has_no_column_to_propose(tmp_path: Path) -
     (tmp_path / "log.csv").write_bytes(text("t,force", T, F))
     with pytest.raises(ValueError, match="found no position among t, force, and no other column"):
         load(tmp_path / "log.csv")
+
+
+def test_all_that_a_log_lacks_is_asked_for_at_once_and_named_in_one_option(tmp_path: Path) -> None:
+    log = tmp_path / "log.csv"
+    log.write_bytes(text("a,b,my force", T, X, F))
+    with pytest.raises(ValueError, match="no time and no position and no force of the hand") as no:
+        load(log)
+    assert "which are they? For example columns={'t': 'a', 'x': 'b', 'force': 'my force'}" in str(
+        no.value
+    )
+    done = CliRunner().invoke(app, ["identify", "arm", str(log)])
+    assert '--column t=a --column x=b --column "force=my force"' in " ".join(done.output.split())
+    assert "no position and no force" in CliRunner().invoke(
+        app, ["identify", "arm", str(log), "--rate", "1000"]
+    ).output.replace("\n", " ")
+    named = ["--column", "t=a,x=b,force=my force"]
+    shown = CliRunner().invoke(app, ["identify", "log", str(log), *named]).output
+    assert "found no" not in shown
+    assert "there is no column" not in shown

@@ -291,6 +291,7 @@ def test_a_law_that_does_not_limit_beta_says_so_where_beta_would_stand() -> None
     assert why in trace.plot().get_suptitle()
     (panel,) = trace.plot("law.beta").axes
     legend = panel.get_legend()
-    assert legend is not None and why in legend.get_texts()[0].get_text()
+    assert legend is not None
+    assert why in legend.get_texts()[0].get_text()
     for other in ("eba", ebac.Variant("ebac", {"observer": False})):
         assert "does not limit" not in ebac.simulate(scenario, other).plot().get_suptitle()

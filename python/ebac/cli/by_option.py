@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ast
 import re
 
 #: What the library calls the numbers that options give.
@@ -45,7 +46,7 @@ def in_options(message: str) -> str:
     message = message.replace("observer=True", "--observer")
     if "--device-counts" in current.values() and re.match(r"\w+\.count = ", message):
         message += "; it is the way of the handle per count of the encoder: give more counts per turn, --device-counts"
-    message = re.sub(r"""columns=\{'(\w+)': (['"])(.*?)\2\}""", _column, message)
+    message = re.sub(r"""columns=(\{'.+?['"]\})""", _columns, message)
     for pattern in (r"(?:[\w ]+: )?([A-Za-z_.]+)(?= ?= )", r"(?:[a-z_]+: )?([a-z_]+)(?= \S+: )"):
         found = re.match(pattern, message)
         if found is None:
@@ -59,7 +60,9 @@ def in_options(message: str) -> str:
     return message
 
 
-def _column(found: re.Match[str]) -> str:
-    """Return the option for columns={'x': 'Handle Pos'}: --column "x=Handle Pos"."""
-    pair = f"{found[1]}={found[3]}"
-    return f'--column "{pair}"' if re.search(r"\s|'", pair) else f"--column {pair}"
+def _columns(found: re.Match[str]) -> str:
+    """Return the options for columns={'t': 'Time', 'x': 'Handle Pos'}: --column t=Time --column "x=Handle Pos"."""
+    pairs = [f"{signal}={column}" for signal, column in ast.literal_eval(found[1]).items()]
+    return " ".join(
+        f'--column "{pair}"' if re.search(r"\s|'", pair) else f"--column {pair}" for pair in pairs
+    )

@@ -16,7 +16,7 @@ from ebac.identify.columns import QUANTITIES, assign, listed
 from ebac.identify.files import Columns, Table, archive_of, read_columns
 from ebac.identify.held_force import without_held
 from ebac.identify.load_options import refuse_unused, words_by_signal
-from ebac.identify.missing import which_is_it
+from ebac.identify.missing import not_found
 from ebac.identify.of_trace import path_of, signals_of, trace_facts, where_met
 from ebac.identify.plausible import plausible
 from ebac.identify.recording import LEAST_ROWS, Recording, count_of
@@ -222,9 +222,9 @@ def _recording(
             raise ValueError(words[column])
     remarks += [f"column {column!r} is left out: it contains text" for column in words]
     left = [heading for heading in raw if heading not in chosen.values()]
-    if "x" not in chosen:
-        ask = f"; {which_is_it('x', left)}" if left else ", and no other column"
-        raise ValueError(f"{name}: found no position among {listed(list(raw))}{ask}")
+    lacks = [key for key in ("t", "x", "force") if key not in chosen and (key != "t" or not rate)]
+    if "x" in lacks:
+        raise ValueError(f"{name}: {not_found(lacks, list(raw), left)}")
     signals: dict[str, Any]
     signals, rotary, said = in_si(
         name, raw, chosen, units, how, guessed=chosen.keys() - columns.keys()
@@ -241,10 +241,12 @@ def _recording(
         remarks.append(f"t: {rate:g} rows a second as asked, column {chosen['t']!r} is not used")
     if "t" not in signals:
         if rate is None:
-            ask = f"{which_is_it('t', left)}. Or " if left else ""
-            raise ValueError(
-                f"{name}: found no time among {listed(list(raw))}; {ask}say how many rows a second: rate=... or --rate"
+            ask = (
+                f"{not_found(lacks, list(raw), left)}. Or say"
+                if left
+                else f"found no time among {listed(list(raw))}; say"
             )
+            raise ValueError(f"{name}: {ask} how many rows a second: rate=... or --rate")
         signals["t"] = np.arange(len(signals["x"])) / rate
     ours = {heading.partition(" [")[0]: values for heading, values in raw.items()}
     if "desired" in signals and {"est.x_act", "est.weight"} <= set(ours):

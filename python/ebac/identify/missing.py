@@ -13,11 +13,30 @@ if TYPE_CHECKING:
 
     from ebac.identify.recording import Recording
 
+#: What a message calls a signal that every log must have, or most.
+WORDS = {"t": "time", "x": "position", "force": "force of the hand"}
 
-def which_is_it(signal: str, left: Sequence[str]) -> str:
-    """Return the question which of the headings that are left is a signal, the likeliest as an example."""
-    example = name_and_unit(signal, max(left, key=lambda h: _is_likely(signal, h)))[0]
-    return f"which is it? For example columns={{{signal!r}: {example!r}}}"
+
+def not_found(signals: Sequence[str], headings: Sequence[str], left: Sequence[str]) -> str:
+    """Return that signals were not found among the headings, and how to name the columns that are left.
+
+    All that a log lacks is asked for at once; the force of the hand only beside another, since not all need it.
+    """
+    words = " and ".join(f"no {WORDS[signal]}" for signal in signals)
+    ask = f"; {which_is_it(signals, left)}" if left else ", and no other column"
+    return f"found {words} among {listed(list(headings))}{ask}"
+
+
+def which_is_it(signals: Sequence[str], left: Sequence[str]) -> str:
+    """Return the question which of the headings that are left are these signals, the likeliest as examples."""
+    free, examples = list(left), []
+    for signal in signals:
+        if free:
+            chosen = max(free, key=lambda h: _is_likely(signal, h))
+            free.remove(chosen)
+            examples.append(f"{signal!r}: {name_and_unit(signal, chosen)[0]!r}")
+    which = "which is it" if len(signals) == 1 else "which are they"
+    return f"{which}? For example columns={{{', '.join(examples)}}}"
 
 
 def _is_likely(signal: str, heading: str) -> bool:
@@ -32,7 +51,7 @@ def left_for(signal: str, r: Recording) -> str:
     """Return what follows after the name of a signal that a recording lacks: its channels, and what else was there."""
     found = f", only {', '.join(r.channels())}"
     if r.unread:
-        return f"{found}; the file also has {listed(r.unread)}; {which_is_it(signal, r.unread)}"
+        return f"{found}; the file also has {listed(r.unread)}; {which_is_it([signal], r.unread)}"
     return f"{found}; name its column, columns={{{signal!r}: 'NAME'}}, or identify from a log that has one"
 
 

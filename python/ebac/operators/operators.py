@@ -123,7 +123,9 @@ class Operators:
         return cls._from_rows(np.array(rows), columns)
 
     @classmethod
-    def sample(cls, n: int, seed: int = 1, *, most_pull: float = MOST_PULL, **columns: float) -> Self:
+    def sample(
+        cls, n: int, seed: int = 1, *, most_pull: float = MOST_PULL, **columns: float
+    ) -> Self:
         """Return `n` random operators; the first ones of a larger population of the same seed are the same.
 
         Mass 0.03 to 1.5 kg, damping 1 to 25 N s/m and stiffness 50 to 1200 N/m are log-uniform, the target of 10 to

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -33,7 +34,10 @@ def _fit(text: str, default: str | bool = False, **more: Any) -> Any:
     return typer.Option(help=text, show_default=default, rich_help_panel=FIT, **more)
 
 
-Fix = Annotated[list[str] | None, _fit("NAME=VALUE in SI units: M0, B0, K0, X0, delay; repeat it.")]
+Fix = Annotated[
+    list[str] | None,
+    _fit("NAME=VALUE in SI units: M0, B0, K0, X0, delay; several separated by commas."),
+]
 Robust = Annotated[
     float | None,
     _fit("Errors beyond this many standard deviations count linearly.", min=0.1, max=100),
@@ -90,9 +94,9 @@ class TargetOptions:
 
 
 def pairs(given: list[str] | None, option: str) -> dict[str, str]:
-    """Split NAME=VALUE."""
+    """Split NAME=VALUE, several separated by commas or given one by one."""
     out = {}
-    for text in given or []:
+    for text in (part for one in given or [] for part in re.split(r",(?=\w+=)", one)):
         name, mark, value = text.partition("=")
         if not mark or not name or not value:
             raise ValueError(f"{option} {text}: write NAME=VALUE")
@@ -119,10 +123,14 @@ class Reading:
 
     column: Annotated[
         list[str] | None,
-        _log("SIGNAL=COLUMN: t, x, force, motor, desired or target; repeat it.", "guessed"),
+        _log(
+            "SIGNAL=COLUMN: t, x, force, motor, desired or target; several separated by commas.",
+            "guessed",
+        ),
     ] = None
     unit: Annotated[
-        list[str] | None, _log("SIGNAL=UNIT, as x=mm; repeat it.", "from the heading, else SI")
+        list[str] | None,
+        _log("SIGNAL=UNIT, as x=mm; several separated by commas.", "from the heading, else SI"),
     ] = None
     rate: Annotated[
         float | None,
