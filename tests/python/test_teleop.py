@@ -441,7 +441,7 @@ def test_a_run_that_shakes_does_not_hide_the_others_and_is_said_to_be_cut() -> N
     assert 1e-3 * low < runs[1]["true_x"].min()
     assert runs[1]["true_x"].max() < 1e-3 * high
     assert high - low < 3 * 1e3 * np.ptp(runs[1]["true_x"])
-    alone = plot_teleop_runs(runs[:1])
+    alone = runs[0].plot()
     assert not alone.axes[0].texts  # nothing else is there to be hidden
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import numpy.typing as npt
@@ -17,6 +17,9 @@ from ebac.scenario import Scenario
 from ebac.teleop import run_text
 from ebac.teleop.schemes import Scheme, chosen_scheme
 from ebac.tuned_laws import on_its_observer
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 #: A stick that swings farther does not rest [m].
 NO_REST = 5e-3
@@ -136,6 +139,12 @@ class Run:
         """Largest force on the environment [N]."""
         return float(self["met"].max())
 
+    def plot(self) -> Figure:
+        """Draw positions, forces and energies of both ports over time; `ebac.plot.plot_teleop_runs` draws several."""
+        from ebac.plot import plot_teleop_runs
+
+        return plot_teleop_runs([self])
+
     def __repr__(self) -> str:
         """Return the verdict and the main numbers in one line."""
         return run_text.one_line(self)
@@ -147,11 +156,10 @@ class Run:
     def _repr_html_(self) -> str:
         """Return a figure and the numbers, for a notebook."""
         from ebac._util import notebook
-        from ebac.plot import plot_teleop_runs
 
         title = f"Teleoperation under {self.scheme.name}, simulated: {run_text.verdict(self)}"
         rows = [{name: getattr(self, name) for _, name, _, _ in run_text.LINES}]
-        return notebook.result(title, rows, lambda: plot_teleop_runs([self]))
+        return notebook.result(title, rows, self.plot)
 
 
 def simulate(
