@@ -176,7 +176,7 @@ def test_a_measure_is_what_a_study_says(few: Ablation) -> None:
         assert row.values["good_K20"] == named[row.law, "d1K20"].good
         assert row.values["least_energy_pumping_J"] == named[row.law, "pumping"].least_energy_J
         least = min(
-            named[row.law, name].least_energy_J or 0.0 for name in ("d1K10", "d1K20", "d2b2K20")
+            named[row.law, name].least_energy_J or 0.0 for name in ("d1K10", "d1K20", "d2K20")
         )
         assert row.values["least_energy_impact_J"] == least
 
