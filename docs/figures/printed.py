@@ -9,7 +9,7 @@ import json
 import re
 import subprocess
 import sys
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -62,6 +62,15 @@ class Printed:
     def rows(self, command: str) -> list[Row]:
         """Return the records of a command."""
         rows: list[Row] = self.document(command)["rows"]
+        return rows
+
+    def kept(self, name: str, find: Callable[[], list[Row]]) -> list[Row]:
+        """Return what was found in Python, from the folder where it lies there already."""
+        file = self.folder / f"{name}.json"
+        if not file.exists():
+            print(name, flush=True)
+            file.write_text(json.dumps(find()), encoding="utf-8")
+        rows: list[Row] = json.loads(file.read_bytes())
         return rows
 
 

@@ -1,8 +1,9 @@
 """Write the tables of these pages anew from what the commands print: `python docs/figures/tables.py [name ...]`.
 
-    python docs/figures/tables.py                      # all but `speed`: some ten minutes on one core
+    python docs/figures/tables.py                      # all but those of `ASKED`: about an hour on two cores
     python docs/figures/tables.py grid --kept DIR      # one; what DIR holds of an earlier call is not run again
     python docs/figures/tables.py speed                # only by its name: where nothing else runs
+    python docs/figures/tables.py limits-worst         # only by its name: half an hour of searches
 
 A table stands between `<!-- table: NAME -->` and `<!-- end -->`; what a page says around it stays as it is.
 """
@@ -18,8 +19,10 @@ import adversaries as hostile
 import device_tables as devices
 import identify_tables as identified
 import law_tables as laws
+import limit_tables as limits
 import population_tables as populations
 import rival_tables as rivals
+import sensor_limit_tables as sensors
 import story_tables as story
 import tracking_tables as tracked
 from printed import Printed, names, put
@@ -37,6 +40,8 @@ PAGES = tuple(
         "explanation/speed.md",
         "explanation/story.md",
         "explanation/criteria.md",
+        "explanation/limits_energy.md",
+        "explanation/limits_sensor.md",
         "explanation/identification.md",
         "how-to/evaluate_tracking.md",
     )
@@ -68,11 +73,15 @@ TABLES: dict[str, Callable[[Printed], str]] = {
     "identify-scale": identified.scale,
     "identify-gains": identified.gains,
     "identify-gains-seeds": identified.gains_by_seed,
+    "limits-worst": limits.worst_hands,
+    "limits-scale": sensors.scale,
+    "limits-steps": sensors.steps,
+    "limits-motor": sensors.motor,
     "outliers": tracked.outliers,
     "speed": laws.speed,
 }
-#: Left out unless asked for: what they say depends on what else the machine does.
-ASKED = {"speed"}
+#: Left out unless asked for: what `speed` says depends on what else the machine does; the others take long.
+ASKED = {"speed", "limits-worst", "limits-scale", "limits-steps", "limits-motor"}
 
 
 def main() -> None:

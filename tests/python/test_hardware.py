@@ -154,6 +154,7 @@ def test_drives_that_go_away_leave_the_fault_and_the_rows(
 
     monkeypatch.setattr(backends, "at_work", kept)
     monkeypatch.setattr(backends, "virtual_can", lambda: None)
+    monkeypatch.setattr(backends, "_PATIENCE", 1.0)
     with ebac.Device.open(configuration(silent=20), simulate=True) as device:
         run = device.start(seconds=30)
         until(run, lambda: run.ticks > 300)

@@ -103,7 +103,7 @@ def worst(
 
     * `ebac worst --condition d2K10 --family swinging --evaluations 1000`
 
-    * `ebac worst --law tca-damped,eba,ebac --evaluations 200`: three laws, each against its own worst hand
+    * `ebac worst --law tca-damped,eba,ebac --family swinging --evaluations 100`: each law against its own worst hand
 
     * `ebac worst --change guard=off --family impact`: the same without the guard
 
