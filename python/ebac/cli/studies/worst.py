@@ -99,15 +99,15 @@ def worst(
 
     **Examples**
 
-    * `ebac worst --evaluations 200`: EBAC at the paper's wall
+    * `ebac worst --evaluations 200`: EBAC at the paper's wall, a short search
 
-    * `ebac worst --condition d2K10 --family swinging --evaluations 1000`
+    * `ebac worst --condition d2K10 --family swinging`: one family, at two samples of delay
 
     * `ebac worst --law tca-damped,eba,ebac --family swinging --evaluations 100`: each law against its own worst hand
 
     * `ebac worst --change guard=off --family impact`: the same without the guard
 
-    * `ebac worst --pull-rate 1000`: hands that need a millisecond for each newton
+    * `ebac worst --pull-rate 1000 --family tapping --evaluations 200`: hands that need a millisecond for each newton
     """
     from ebac.studies.worst import worst as search
 

@@ -1,0 +1,116 @@
+"""What the worst hands of `ebac` draw: at four walls, with friction, jitter, finer counts and a wrong mass."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from printed import NOISE, Printed, Row, table
+
+import ebac
+from ebac.studies import scenario_changes as to
+from ebac.studies.conditions import Condition, conditions
+
+#: The walls of the searches: 10 and 20 kN/m at one and two samples of delay.
+WALLS = ("d1K10", "d2K10", "d1K20", "d2K20")
+#: Walls for rows of which two were searched.
+ENDS = ("d1K10", "d2K20")
+#: Reserve of the account [J]; more is bold.
+RESERVE = 2e-3
+#: What NOISE makes of the reference scenario.
+NOISY = ebac.Scenario(device=ebac.Device(sensor=ebac.ForceSensor(noise=0.03)))
+
+
+@dataclass(frozen=True, kw_only=True)
+class Search:
+    """A row of worst hands: label, options of `ebac worst`, walls and seeds; friction that is not declared [N]."""
+
+    label: str
+    options: str = ""
+    walls: tuple[str, ...] = WALLS
+    seeds: tuple[int, ...] = (1,)
+    hidden: float = 0.0
+
+
+SEARCHES = (
+    Search(label="as declared", seeds=(1, 2, 3)),
+    Search(
+        label="own force of the hand at most 20 N/ms, `--pull-rate 20000`",
+        options="--pull-rate 20000",
+    ),
+    Search(
+        label="own force at most 1 N/ms, as the guard expects, `--pull-rate 1000`",
+        options="--pull-rate 1000",
+    ),
+    Search(
+        label="with 0.1 N of friction, declared, `--device-coulomb 0.1`",
+        options="--device-coulomb 0.1",
+        walls=ENDS,
+    ),
+    Search(label="with 0.3 N, declared", options="--device-coulomb 0.3", walls=ENDS),
+    Search(
+        label="with 0.3 N, declared and all of it compensated, `--device-friction-compensation 0.3`",
+        options="--device-coulomb 0.3 --device-friction-compensation 0.3",
+        walls=ENDS,
+    ),
+    Search(label="with 0.1 N of friction that is not declared", hidden=0.1, walls=ENDS),
+    Search(label="with 0.3 N that is not declared", hidden=0.3, walls=ENDS),
+    Search(
+        label="with counts of 3.8 µm, `--device-counts 8192`",
+        options="--device-counts 8192",
+        walls=ENDS,
+        seeds=(1, 2),
+    ),
+    Search(label="with 30 % of jitter, `-c jitter`", walls=("jitter",)),
+    Search(label="with half of the true mass declared, `-c told-mass-50`", walls=("told-mass-50",)),
+    Search(label="with `guard=off`", options="--change guard=off", walls=("d1K10",)),
+)
+
+
+def worst_hands(printed: Printed) -> str:
+    """What the worst hand of a search draws at four walls, in runs of 2 to 8 s and in 5 min."""
+    heads = [
+        "",
+        "10 kN/m, 1 sample of delay",
+        "10 kN/m, 2 samples",
+        "20 kN/m, 1 sample",
+        "20 kN/m, 2 samples",
+    ]
+    rows = [["", "(default)", "`-c d2K10`", "`-c d1K20`", "`-c d2K20`"]]
+    for one in SEARCHES:
+        cells = ["", "", "", ""]
+        for condition in one.walls:
+            cells[WALLS.index(condition) if condition in WALLS else 0] = _drawn(
+                printed, one, condition
+            )
+        rows.append([one.label, *cells])
+    return table(heads, rows)
+
+
+def _drawn(printed: Printed, one: Search, condition: str) -> str:
+    """Return what is drawn over the seeds of a search: in a run, and where it is more, in 5 min of the same hand."""
+    found = [_search(printed, one, condition, seed) for seed in one.seeds]
+    short = [max(r["energy_drawn_J"] for r in rows) for rows in found]
+    long = [max(r["energy_drawn_300_s_J"] for r in rows) for rows in found]
+    text = _range(short)
+    if max(long) > max(short) + 0.05e-3:
+        text += f" ({_range(long)})"
+    return f"**{text}**" if max(short) > RESERVE else text
+
+
+def _search(printed: Printed, one: Search, condition: str, seed: int) -> list[Row]:
+    if not one.hidden:
+        words = ["worst", NOISE, "-c", condition, one.options, "--seed", str(seed)]
+        return printed.rows(" ".join(filter(None, words)))
+    (known,) = conditions([condition])
+    change = to.together(known.change, to.untold(to.device("mechanics", coulomb=one.hidden)))
+    untold = Condition(name=f"{condition}-untold", summary="", change=change)
+    return printed.kept(
+        f"untold-{one.hidden:g}-{condition}-{seed}",
+        lambda: ebac.worst("ebac", untold, base=NOISY, seed=seed, threads=printed.threads).rows(),
+    )
+
+
+def _range(energies: Sequence[float]) -> str:
+    low, high = (f"{1e3 * e:.1f}" for e in (min(energies), max(energies)))
+    return f"{low} mJ" if low == high else f"{low} to {high} mJ"

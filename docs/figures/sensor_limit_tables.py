@@ -1,0 +1,188 @@
+"""What errors of force sensor and motor cost `ebac`: a wrong scale, coarse steps, ripple, cogging, offset, noise."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import partial
+from typing import Any
+
+from printed import Printed, Row, of_two, table
+
+import ebac
+
+#: From so many lost hands of 60 on a count is bold.
+LOST = 9
+#: Energy in a window of time from which on it is named [J].
+NAMED = 0.5e-3
+
+
+def scenario(*, sensor: dict[str, Any] | None = None, **parts: Any) -> ebac.Scenario:
+    """Return the reference scenario with 0.03 N of noise, an error of its sensor, and other parts of its device."""
+    made = ebac.ForceSensor(noise=0.03).replace(**(sensor or {}))
+    return ebac.Scenario(device=ebac.Device(sensor=made, **parts))
+
+
+# --- the scale of the force ---
+
+#: Scales of the force sensor, over the true one.
+SCALES = (1.0, 0.998, 0.99, 0.98, 0.95, 1.01, 1.02, 1.05)
+SCALED = ("slow-waves", "slow-waves-K20", "slow-press-d2K20", "d2K20")
+#: Seeds of the noise, and of the search.
+SEEDS = (1, 2)
+
+
+def scale(printed: Printed) -> str:
+    """Hands that are exact and still where the scale of the force is wrong, and what is drawn."""
+    rows = []
+    for factor in SCALES:
+        name, base = f"scale-{factor:g}", scenario(sensor={"scale": factor})
+        cells = [
+            _lost([str(r["exact_and_still"]) for r in of], [r["exact_and_still"] for r in of])
+            + _window(of, ";")
+            for of in _counted(printed, name, base, SCALED)
+        ]
+        rows.append([_said(factor), *cells, _worst(printed, name, base, ("d1K10",), 300, SEEDS)])
+    heads = [
+        "what the sensor shows",
+        "sways at 10 kN/m",
+        "sways at 20 kN/m",
+        "presses slowly, 20 kN/m, 2 samples",
+        "presses at once, 20 kN/m, 2 samples",
+        "worst hand",
+    ]
+    return table(heads, rows)
+
+
+def _said(factor: float) -> str:
+    if factor == 1:
+        return "exact"
+    return f"{100 * abs(factor - 1):.2g} % too {'much' if factor > 1 else 'little'}"
+
+
+# --- the steps of the sensor ---
+
+#: Steps of the reading [N].
+STEPS = (0.0, 0.0625, 0.125, 0.25)
+
+
+def steps(printed: Printed) -> str:
+    """Hands that are good, and exact and still, with a force in steps."""
+    rows = []
+    for step in STEPS:
+        base = scenario(sensor={"quantum": step})
+        counted = _counted(printed, f"step-{step:g}", base, ("d1K10", "d2K20", "slow-waves"))
+        rows.append([f"{step:g} N" if step else "none", *map(_both, counted)])
+    heads = ["step", "10 kN/m, 1 sample", "20 kN/m, 2 samples", "sways at 10 kN/m"]
+    return table(heads, rows)
+
+
+# --- the torque of the motor ---
+
+RATED = ebac.Motor().rated_torque
+#: Errors of the motor and its amplifier: what they are called, and what they are.
+MOTORS: tuple[tuple[str, dict[str, Any]], ...] = (
+    ("none", {}),
+    ("ripple of 0.25 %, 13 times a turn", {"motor": ebac.Motor(ripple=0.0025, waves=13)}),
+    ("0.5 %, 13 times", {"motor": ebac.Motor(ripple=0.005, waves=13)}),
+    ("0.5 %, 26 times", {"motor": ebac.Motor(ripple=0.005, waves=26)}),
+    ("1 %, 13 times", {"motor": ebac.Motor(ripple=0.01, waves=13)}),
+    ("1 %, 26 times", {"motor": ebac.Motor(ripple=0.01, waves=26)}),
+    ("2 %, 26 times", {"motor": ebac.Motor(ripple=0.02, waves=26)}),
+    (
+        "cogging of 0.1 % of the rated torque (0.01 N)",
+        {"motor": ebac.Motor(cogging=1e-3 * RATED, waves=26)},
+    ),
+    ("cogging of 0.5 % (0.05 N)", {"motor": ebac.Motor(cogging=5e-3 * RATED, waves=26)}),
+    ("offset of 10 mA (0.11 N)", {"drive": ebac.Drive(current_offset=0.01)}),
+    ("noise of 5 mA (0.05 N)", {"drive": ebac.Drive(current_noise=5e-3)}),
+)
+TURNED = ("d1K10", "d2K20", "slow-waves", "slow-press-d2K20")
+
+
+def motor(printed: Printed) -> str:
+    """Hands that are good, and exact and still, with an uneven torque; what the worst hands of two walls draw."""
+    rows = []
+    for i, (label, parts) in enumerate(MOTORS):
+        base = scenario(**parts)
+        counted = _counted(printed, f"motor-{i}", base, TURNED, seeds=(1,))
+        cells = [_both(of) + _window(of, ",") for of in counted]
+        rows.append(
+            [label, *cells, _worst(printed, f"motor-{i}", base, ("d1K10", "d2K20"), 600, (1,))]
+        )
+    heads = [
+        "error of the motor",
+        "10 kN/m, 1 sample",
+        "20 kN/m, 2 samples",
+        "sways at 10 kN/m",
+        "presses slowly, 20 kN/m, 2 samples",
+        "worst hands at the first two walls",
+    ]
+    return table(heads, rows)
+
+
+# --- what they share ---
+
+
+def _counted(
+    printed: Printed,
+    name: str,
+    base: ebac.Scenario,
+    conditions: Sequence[str],
+    seeds: Sequence[int] = SEEDS,
+) -> list[list[Row]]:
+    """Return for each condition the row of a study with each seed of the noise."""
+
+    def studied(seed: int) -> list[Row]:
+        found = ebac.study(
+            ebac.Operators.grid(),
+            ["ebac"],
+            conditions,
+            base=base,
+            seed=seed,
+            threads=printed.threads,
+        )
+        return [row.row() for row in found.rows]
+
+    by_seed = [printed.kept(f"{name}-study-{seed}", partial(studied, seed)) for seed in seeds]
+    return [list(rows) for rows in zip(*by_seed, strict=True)]
+
+
+def _worst(
+    printed: Printed,
+    name: str,
+    base: ebac.Scenario,
+    conditions: Sequence[str],
+    runs: int,
+    seeds: Sequence[int],
+) -> str:
+    """Return what the worst hand draws in each condition, with each seed of the search."""
+
+    def searched(condition: str, seed: int) -> list[Row]:
+        return ebac.worst(
+            "ebac", condition, evaluations=runs, seed=seed, base=base, threads=printed.threads
+        ).rows()
+
+    found = [
+        printed.kept(f"{name}-worst-{c}-{seed}", partial(searched, c, seed))
+        for c in conditions
+        for seed in seeds
+    ]
+    most = [1e3 * max(row["energy_drawn_J"] for row in rows) for rows in found]
+    return f"{', '.join(f'{e:.1f}' for e in most)} mJ"
+
+
+def _both(rows: Sequence[Row]) -> str:
+    """Return how many are good / exact and still, of each seed."""
+    texts = [of_two(r["good"], r["exact_and_still"]) for r in rows]
+    return _lost(list(dict.fromkeys(texts)), [r["exact_and_still"] for r in rows])
+
+
+def _lost(texts: Sequence[str], counts: Sequence[int]) -> str:
+    joined = ", ".join(texts)
+    return f"**{joined}**" if min(counts) <= 60 - LOST else joined
+
+
+def _window(rows: Sequence[Row], mark: str) -> str:
+    """Return the most that a hand draws in a window of time, where it is worth a word."""
+    most = max(r["most_drawn_J"] for r in rows)
+    return f"{mark} {1e3 * most:.0f} mJ" if most >= NAMED else ""
