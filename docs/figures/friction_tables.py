@@ -66,8 +66,8 @@ def declared(printed: Printed) -> str:
     rows = []
     for friction in (0.0, 0.05, 0.1, 0.3):
         options = f"{NOISE} --device-coulomb {friction:g}" if friction else NOISE
-        scores = {r["delay"]: r for r in printed.rows(f"zwidth --law ebac --points 3 {options}")}
-        areas = ", ".join(f"{scores[d]['usable_area'] / 1e3:.0f}" for d in (0, 1, 2))
+        found = printed.document(f"zwidth --law ebac --points 3 {options}")
+        areas = ", ".join(f"{one['usable_area'] / 1e3:.0f}" for one in found["scores"])
         names = ",".join(",".join(cells) for cells in CELLS.values())
         good = {r["condition"]: r for r in printed.rows(f"study --law ebac {options} -c {names}")}
         counts = [", ".join(str(good[c]["good"]) for c in cells) for cells in CELLS.values()]
