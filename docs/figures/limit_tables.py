@@ -37,10 +37,12 @@ SEARCHES = (
     Search(
         label="own force of the hand at most 20 N/ms, `--pull-rate 20000`",
         options="--pull-rate 20000",
+        walls=("d2K20",),
     ),
     Search(
         label="own force at most 1 N/ms, as the guard expects, `--pull-rate 1000`",
         options="--pull-rate 1000",
+        walls=("d2K20",),
     ),
     Search(
         label="with 0.1 N of friction, declared, `--device-coulomb 0.1`",
