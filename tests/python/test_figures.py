@@ -218,7 +218,8 @@ def test_columns_without_numbers_are_said_to_have_none_and_wrong_ones_are_refuse
     trace = run("ebac", seconds=1.0)
     assert np.isnan(trace["law.beta"]).all()
     (legend,) = [ax.get_legend() for ax in plot_columns(trace, ["law.beta"]).axes]
-    assert [text.get_text() for text in legend.get_texts()] == ["law.beta: no numbers"]
+    why = "law.beta: with the state observer ebac does not limit beta"
+    assert [text.get_text() for text in legend.get_texts()] == [why]
     with pytest.raises(TypeError, match=r"names = 'x'.*such as \['x'\]"):
         plot_columns(trace, "x")
     with pytest.raises(TypeError, match="plot_columns takes a Trace"):

@@ -152,9 +152,10 @@ def of_trial(number: int, axis_number: int) -> dict[str, str]:
 @pytest.mark.slow
 def test_matrices_of_matlab_with_a_series_a_row_are_series(arm_log: Path) -> None:
     """They were a column a sample, and the message that there is no position had 5 MB."""
-    with pytest.raises(ValueError, match="found no position among symbol_data_1_pos_0") as refused:
+    with pytest.raises(ValueError, match="force of the hand among symbol_data_1_pos_0") as refused:
         identify.load(arm_log)
     assert "symbol_data_1_F_2" in str(refused.value)
+    assert "'x': 'symbol_data_1_pos_0', 'force': 'symbol_data_1_F_0'" in str(refused.value)
     assert "and 52 more" in str(refused.value)
     assert len(str(refused.value)) < 1000
     found = identify.load(arm_log, columns=of_trial(2, 1), rate=1000)

@@ -7,10 +7,10 @@
 namespace ebac {
 namespace {
 
-/// "; 40 mm is 0.04 m" where a value beyond its range would lie in it, had it been meant in thousandths.
+/// "; 40 mm is 0.04 m" where a value well beyond its range would lie in it, meant in thousandths.
 std::string in_thousandths(double value, std::string_view unit, double low, double high) {
   const double meant = value / 1000;
-  if (!(value > high && meant >= low && meant <= high)) return {};
+  if (!(value > 1.1 * high && meant >= low && meant <= high)) return {};
   const std::string_view small = unit == "m" ? "mm" : unit == "kg" ? "g" : unit == "s" ? "ms" : "";
   if (small.empty()) return {};
   std::string text("; ");

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from ebac.identify.columns import listed, name_and_unit, quantity_of
+from ebac.identify.columns import NAMES, listed, name_and_unit, quantity_of
 
 if TYPE_CHECKING:
     import numpy as np
@@ -29,22 +30,24 @@ def not_found(signals: Sequence[str], headings: Sequence[str], left: Sequence[st
 
 def which_is_it(signals: Sequence[str], left: Sequence[str]) -> str:
     """Return the question which of the headings that are left are these signals, the likeliest as examples."""
-    free, examples = list(left), []
-    for signal in signals:
+    free, chosen = list(left), dict[str, str]()
+    for signal in sorted(signals, key=lambda each: -max(_likelihood(each, h) for h in left)):
         if free:
-            chosen = max(free, key=lambda h: _is_likely(signal, h))
-            free.remove(chosen)
-            examples.append(f"{signal!r}: {name_and_unit(signal, chosen)[0]!r}")
+            chosen[signal] = max(free, key=lambda h: _likelihood(signal, h))
+            free.remove(chosen[signal])
+    pairs = [f"{s!r}: {name_and_unit(s, chosen[s])[0]!r}" for s in signals if s in chosen]
     which = "which is it" if len(signals) == 1 else "which are they"
-    return f"{which}? For example columns={{{', '.join(examples)}}}"
+    return f"{which}? For example columns={{{', '.join(pairs)}}}"
 
 
-def _is_likely(signal: str, heading: str) -> bool:
-    """Return whether the unit or the name of a heading is of a quantity that the signal may be."""
+def _likelihood(signal: str, heading: str) -> int:
+    """Return how likely a heading is that of a signal: by a word of its name, then by its unit."""
+    words = re.split(r"[\W_]+", heading.partition(" [")[0].lower())
     try:
-        return quantity_of("", signal, heading, name_and_unit(signal, heading)[1])[0] is not None
+        fits = quantity_of("", signal, heading, name_and_unit(signal, heading)[1])[0] is not None
     except ValueError:  # another unit
-        return False
+        return 0
+    return 1 + fits + 2 * any(word in NAMES[signal] for word in words)
 
 
 def left_for(signal: str, r: Recording) -> str:
