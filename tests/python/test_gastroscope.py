@@ -314,7 +314,11 @@ def test_a_log_has_an_event_for_each_touch_and_each_time_above_the_limit(tmp_pat
     tender = Lumen(Patient(force_limit=0.5))
     run = gastroscope.gastroscopy("direct", Procedure(lumen=tender, targets=[polyp], seconds=25))
     run.save(tmp_path / "run.mcap")
-    events = logs.read(tmp_path / "run.mcap").events
+    read = logs.read(tmp_path / "run.mcap")
+    assert read.trace.origin == "simulated"
+    assert "simulated: the 3-axis joystick" in read.trace.plot().get_suptitle()
+    assert "free air" not in read.trace.plot().get_suptitle(), "its world is the patient"
+    events = read.events
     kinds = [event.kind for event in events]
     assert run.findings["touched"] == kinds.count("touch") == 1
     assert kinds.count("limit") >= 1

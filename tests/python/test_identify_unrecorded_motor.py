@@ -141,3 +141,10 @@ def test_a_delay_that_was_given_is_shown_as_given() -> None:
     result = identify.fit_arm(recording, fixed={"delay": 1e-4})
     assert result["delay"].value == 1e-4
     assert result["delay"].fixed
+
+
+def test_columns_that_are_not_used_are_named_since_one_may_be_the_motor() -> None:
+    recording = pushed(*HANDS[0])
+    lacks = replace(recording, motor=None, unread=("Motor Kraft",))
+    assert any("not used: Motor Kraft" in note for note in identify.fit_arm(lacks).notes)
+    assert not any("not used" in note for note in identify.fit_arm(recording).notes)

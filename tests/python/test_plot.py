@@ -289,7 +289,7 @@ def test_a_law_that_does_not_limit_beta_says_so_where_beta_would_stand() -> None
     trace = ebac.simulate(scenario, "ebac")
     why = "with the state observer ebac does not limit beta"
     assert why in trace.plot().get_suptitle()
-    (panel,) = trace.plot("law.beta").axes
+    (panel,) = trace.plot(["law.beta"]).axes
     legend = panel.get_legend()
     assert legend is not None
     assert why in legend.get_texts()[0].get_text()

@@ -417,7 +417,8 @@ def test_runs_are_drawn_with_their_conditions_and_a_colour_for_each_thing() -> N
     assert figure.get_suptitle().splitlines() == [
         "Teleoperation, simulated",
         "each way 50 ms of delay; contact of 500 N/m at 20 mm; a hand (0.15 kg, 6 N s/m, 300 N/m, target 45 mm); "
-        "the reference device (0.25 kg, 2 N s/m, sensor without noise)",
+        "the reference device (0.25 kg, 2 N s/m, sensor without noise); 1 kHz, 1 sample of delay, state observer for "
+        "laws made for it; 3 s, seed 1",
     ]
     titles = [ax.get_title() for ax in figure.axes[:2]]
     assert titles == ["waves\nlaw direct", "ebac\nlaw ebac"]

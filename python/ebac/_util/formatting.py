@@ -122,6 +122,18 @@ def _number(value: float, decimals: int, more: int, signed: bool, exact: bool) -
 
 def describe(scenario: Scenario) -> str:
     """Return device, hand, virtual world and time of a scenario in one line."""
+    return "; ".join(
+        (
+            described_device(scenario.device),
+            described_hand(scenario.hand),
+            _environment(scenario.environment),
+            described_time(scenario),
+        )
+    )
+
+
+def described_time(scenario: Scenario) -> str:
+    """Return ticks, delay and observer of a scenario, then its length and seed."""
     timing = scenario.timing
     samples = "1 sample" if timing.delay == 1 else f"{timing.delay} samples"
     jitter = f", jitter {100 * scenario.jitter:g} %" if scenario.jitter else ""
@@ -129,15 +141,8 @@ def describe(scenario: Scenario) -> str:
     observer = ""
     if used is not None:
         observer = f", state observer for {'every law' if used.every_law else 'laws made for it'}"
-    return "; ".join(
-        (
-            described_device(scenario.device),
-            described_hand(scenario.hand),
-            _environment(scenario.environment),
-            f"{_kilo(1 / timing.dt, 'Hz')}, {samples} of delay{jitter}{observer}",
-            f"{scenario.seconds:g} s, seed {scenario.seed}",
-        )
-    )
+    ticks = f"{_kilo(1 / timing.dt, 'Hz')}, {samples} of delay{jitter}{observer}"
+    return f"{ticks}; {scenario.seconds:g} s, seed {scenario.seed}"
 
 
 def _kilo(value: float, unit: str) -> str:

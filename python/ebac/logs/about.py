@@ -68,6 +68,8 @@ class About:
         Attached as `scenario.toml`.
     changed : bool
         Whether law, world, delay or the hand's target were changed during the run; a log of a run has events of it.
+    simulated : bool
+        Whether a simulation made the rows, where their columns do not show it.
     start_ns : int
         When t was 0, in nanoseconds since 1970 (UTC); 0 for a simulation, whose time is its own.
     files : mapping of str to str
@@ -81,6 +83,7 @@ class About:
     law_repr: str = ""
     scenario: Scenario | None = None
     changed: bool = False
+    simulated: bool = False
     start_ns: int = 0
     files: Mapping[str, str] = field(default_factory=dict)
     made_by: Mapping[str, str] = field(default_factory=versions)
@@ -88,7 +91,9 @@ class About:
     @property
     def origin(self) -> str:
         """The origin of the trace, see `Trace.origin`; empty where its columns show it."""
-        return SIMULATED_DRIVES if SIMULATED_FILE in self.files else ""
+        if SIMULATED_FILE in self.files:
+            return SIMULATED_DRIVES
+        return "simulated" if self.simulated else ""
 
     @property
     def metadata(self) -> dict[str, str]:
@@ -100,6 +105,7 @@ class About:
             "law_repr": self.law_repr,
             "start_ns": str(self.start_ns),
             **({"changed": "true"} if self.changed else {}),
+            **({"simulated": "true"} if self.simulated else {}),
             **self.made_by,
         }
 

@@ -225,5 +225,6 @@ def about_trace(trace: Trace, files: Mapping[str, str]) -> About:
         law_repr=trace.law_repr,
         scenario=trace.scenario,
         changed=trace.changed,
+        simulated=trace.origin == "simulated" and "true.x" not in trace,
         files={**simulated, **files},
     )

@@ -276,7 +276,7 @@ def _about(found: _Found, condition: Condition, axes: int) -> About:
     metadata = dict(found.metadata.get("ebac", {}))
     own = {
         name: metadata.pop(name, "")
-        for name in ("format", "axes", "law", "law_repr", "start_ns", "changed")
+        for name in ("format", "axes", "law", "law_repr", "start_ns", "changed", "simulated")
     }
     files = dict(found.files)
     scenario = None
@@ -292,6 +292,7 @@ def _about(found: _Found, condition: Condition, axes: int) -> About:
         law_repr=own["law_repr"],
         scenario=scenario,
         changed=own["changed"] == "true",
+        simulated=own["simulated"] == "true",
         start_ns=whole(own["start_ns"]) or 0,
         files=files,
         made_by=metadata,

@@ -41,6 +41,8 @@ def title(trace: Trace) -> str:
     parts = for_laws(formatting.describe(trace.scenario), [trace]).split("; ")
     if "true.x" in trace:
         return f"{name}, {trace.origin}: {parts[0]}; {parts[1]}\n{'; '.join(parts[2:])}{end}"
+    if "f_env" not in trace:  # no loop's: of a gastroscopy, whose world is the patient
+        return f"{name}, {trace.origin}: {parts[0]}{end}"
     # a person's hand is not that of the scenario
     return f"{name}, {trace.origin}: {parts[0]}\n{'; '.join(parts[2:-1])}{end}"
 

@@ -41,6 +41,7 @@ def conditions(run: Run) -> tuple[str, ...]:
         _contact(run.slave),
         formatting.described_hand(run.scenario.hand),
         formatting.described_device(run.scenario.device),
+        formatting.described_time(run.scenario),
     )
 
 

@@ -166,7 +166,7 @@ def _show(runs: list[Run], rows: list[dict[str, Any]]) -> None:
         )
     output.show(grid)
     for one in runs:
-        output.say(f"{one.scheme.name}: {run_text.verdict(one)}")
+        output.say(f"{one.scheme.name}, law {one.law}: {run_text.verdict(one)}")
     output.say("Simulated, not measured:", style="bold")
     output.indented("\n".join(run_text.conditions(runs[0])[1:]))
     output.say(
