@@ -821,3 +821,14 @@ def test_hands_that_the_motor_is_too_weak_for_are_counted(
     count = sum(force > weak.device.peak_force for force in presses)
     assert 0 < count < 60
     assert f"{count} of the 60 hands press with more than the motor can give, 8 N" in told
+
+
+def test_runs_of_many_hands_that_are_too_short_are_named(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    from ebac.cli.studies import short_runs
+
+    short_runs.tell(ebac.Scenario(seconds=0.5))
+    assert capsys.readouterr().err == ""
+    short_runs.tell(ebac.Scenario(seconds=0.05))
+    assert "--seconds = 0.05 s: too short to judge a contact" in capsys.readouterr().err

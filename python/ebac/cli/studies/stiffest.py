@@ -11,7 +11,7 @@ import typer
 
 from ebac.cli import by_name, doubtful_wall, from_options, interrupts, options, output, weak_motor
 from ebac.cli.files import ResultOptions
-from ebac.cli.studies import changed_laws, study_results
+from ebac.cli.studies import changed_laws, short_runs, study_results
 
 if TYPE_CHECKING:
     from ebac.studies import Stiffest
@@ -82,6 +82,7 @@ def stiffest(
             **({"stiffnesses": wall_stiffness} if wall_stiffness else {}),
         }
         weak_motor.tell(given["population"], given["base"])
+        short_runs.tell(given["base"])
     folder = to.folder("stiffest", as_json=as_json, resume=study_results.BUNDLES * resume)
     found = _run(laws, given, folder, resume, quiet=as_json)
     to.report(

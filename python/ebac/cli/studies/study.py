@@ -9,7 +9,7 @@ import typer
 
 from ebac.cli import by_name, from_options, interrupts, options, output, weak_motor
 from ebac.cli.files import PANEL, ResultOptions
-from ebac.cli.studies import replaced, study_results
+from ebac.cli.studies import replaced, short_runs, study_results
 
 if TYPE_CHECKING:
     from ebac.operators import Operators
@@ -87,6 +87,7 @@ def study(
         }
         replaced.tell(given["base"], given["conditions"])
         weak_motor.tell(people, given["base"])
+        short_runs.tell(given["base"])
     folder = to.folder("study", as_json=as_json, resume=study_results.BUNDLES * resume)
     found = _run(people, names, given, folder, resume, quiet=as_json)
     to.report(
