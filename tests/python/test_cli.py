@@ -711,7 +711,7 @@ def test_a_file_with_an_unusual_part_is_noted(table: str, words: str) -> None:
     ],
 )
 def test_a_wall_in_a_wrong_unit_is_noted(given: str, words: str) -> None:
-    small = ("--law", "direct", "--seconds", "0.1", "--no-files", "--json")
+    small = ("--law", "direct", "--seconds", "0.5", "--no-files", "--json")
     result = ebac_command(*given.split(), *small)
     assert result.stderr.count("Note:") == 1
     assert words in result.stderr
