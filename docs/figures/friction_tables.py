@@ -3,12 +3,9 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import partial
 
-from limit_tables import NOISY
-from printed import NOISE, Printed, Row, table
+from printed import NOISE, NOISY, Printed, table
 
-import ebac
 from ebac.studies import scenario_changes as to
 from ebac.studies.conditions import Condition, conditions
 
@@ -84,18 +81,11 @@ def declared(printed: Printed) -> str:
 
 def kept_walls(printed: Printed) -> str:
     """Hands of 60 that are exact and still."""
-
-    def studied(friction: Friction) -> list[Row]:
-        made = [friction.study(known) for known in conditions(HARD)]
-        found = ebac.study(
-            ebac.Operators.grid(), ["ebac"], made, base=NOISY, threads=printed.threads
-        )
-        return [row.row() for row in found.rows]
-
     rows = []
     for label, frictions in ROWS:
         found = [
-            printed.kept(_name(friction), partial(studied, friction)) for friction in frictions
+            printed.studied(_name(one), [one.study(known) for known in conditions(HARD)], NOISY)
+            for one in frictions
         ]
         cells = [
             ", ".join(str(r["exact_and_still"]) for r in of) for of in zip(*found, strict=True)

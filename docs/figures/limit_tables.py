@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from printed import NOISE, Printed, Row, table
+from printed import NOISE, NOISY, Printed, Row, table
 
 import ebac
 from ebac.studies import scenario_changes as to
@@ -17,8 +17,6 @@ WALLS = ("d1K10", "d2K10", "d1K20", "d2K20")
 ENDS = ("d1K10", "d2K20")
 #: Reserve of the account [J]; more is bold.
 RESERVE = 2e-3
-#: What NOISE makes of the reference scenario.
-NOISY = ebac.Scenario(device=ebac.Device(sensor=ebac.ForceSensor(noise=0.03)))
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -14,10 +14,15 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+import ebac
+from ebac.studies.conditions import Condition
+
 MARKED = re.compile(r"(<!-- table: ([\w-]+) -->\n).*?(<!-- end -->)", re.S)
 Row = dict[str, Any]
 #: Every study of these pages has it: the force sensor's noise [N], which the observer is designed for.
 NOISE = "--device-noise 0.03"
+#: What that makes of the reference scenario.
+NOISY = ebac.Scenario(device=ebac.Device(sensor=ebac.ForceSensor(noise=0.03)))
 #: Energy that is written as 0 [J].
 NOTHING = 5e-8
 
@@ -72,6 +77,24 @@ class Printed:
             file.write_text(json.dumps(find()), encoding="utf-8")
         rows: list[Row] = json.loads(file.read_bytes())
         return rows
+
+    def studied(
+        self,
+        name: str,
+        conditions: Sequence[str | Condition],
+        base: ebac.Scenario,
+        seed: int = 1,
+    ) -> list[Row]:
+        """Return a row for each condition, of `ebac` and the 60 hands."""
+
+        def found() -> list[Row]:
+            hands = ebac.Operators.grid()
+            study = ebac.study(
+                hands, ["ebac"], conditions, base=base, seed=seed, threads=self.threads
+            )
+            return [row.row() for row in study.rows]
+
+        return self.kept(name, found)
 
 
 def names(page: Path) -> list[str]:

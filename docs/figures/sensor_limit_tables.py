@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from functools import partial
 from typing import Any
 
-from printed import Printed, Row, of_two, table
+from printed import NOISY, Printed, Row, of_two, table
 
 import ebac
 
@@ -18,7 +18,7 @@ NAMED = 0.5e-3
 
 def scenario(*, sensor: dict[str, Any] | None = None, **parts: Any) -> ebac.Scenario:
     """Return the reference scenario with 0.03 N of noise, an error of its sensor, and other parts of its device."""
-    made = ebac.ForceSensor(noise=0.03).replace(**(sensor or {}))
+    made = NOISY.device.sensor.replace(**(sensor or {}))
     return ebac.Scenario(device=ebac.Device(sensor=made, **parts))
 
 
@@ -131,19 +131,7 @@ def _counted(
     seeds: Sequence[int] = SEEDS,
 ) -> list[list[Row]]:
     """Return for each condition the row of a study with each seed of the noise."""
-
-    def studied(seed: int) -> list[Row]:
-        found = ebac.study(
-            ebac.Operators.grid(),
-            ["ebac"],
-            conditions,
-            base=base,
-            seed=seed,
-            threads=printed.threads,
-        )
-        return [row.row() for row in found.rows]
-
-    by_seed = [printed.kept(f"{name}-study-{seed}", partial(studied, seed)) for seed in seeds]
+    by_seed = [printed.studied(f"{name}-study-{seed}", conditions, base, seed) for seed in seeds]
     return [list(rows) for rows in zip(*by_seed, strict=True)]
 
 
