@@ -11,7 +11,6 @@ import fcntl
 import gc
 import importlib.util
 import os
-import re
 import shutil
 import signal
 import time
@@ -26,6 +25,7 @@ import plain_pictures
 import pytest
 import typer.testing
 from _pytest.runner import runtestprotocol
+from busy_machine import LATE
 from hypothesis import settings
 from hypothesis.internal.conjecture import providers
 
@@ -222,16 +222,6 @@ def open_bus() -> Iterator[Callable[[], "can.BusABC"]]:
         yield lambda: EbacBus(channel)
 
 
-#: Faults by which a loop ends where nothing but the clock is wrong: a drive, a heartbeat or a force that came too late,
-#: or its own ticks did, or a drive missed the loop's heartbeat, or skipped ticks gave out what the guard had, or a
-#: simulated handle made up for time in which its thread stood still. On simulated hardware nobody else can be the
-#: reason.
-_LATE = re.compile(
-    r"fault (?:9 \(drive silent|10 \(drive emergency|11 \(heartbeat lost|14 \(overspeed"
-    r"|16 \(force stale|19 \(overruns)\)"
-    r"|error code 0x8130, heartbeat"
-    r"|ticks? could not be kept and (?:was|were) skipped(?=[\s\S]*fault 21 \(starved)"
-)
 #: How often a test is repeated at most: after a stall, and after any other failure.
 _STALLS, _OTHERS = 7, 2
 
@@ -271,13 +261,13 @@ def pytest_runtest_protocol(item: pytest.Item, nextitem: pytest.Item | None) -> 
         failed = [_message(one) for one in reports if one.failed]
         if not failed or item.get_closest_marker("real_time") is None:
             break
-        if all(_LATE.search(words) for words in failed):
+        if all(LATE.search(words) for words in failed):
             stalls += 1
         else:
             others += 1
         if stalls > _STALLS or others > _OTHERS:
             break
-        fault = _LATE.search(failed[0])
+        fault = LATE.search(failed[0])
         why = fault[0] if fault else failed[0].partition("\n")[0]
         item.user_properties.append(("repeated", why))
     for report in reports:

@@ -9,6 +9,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from busy_machine import patient_file
 from typer.testing import CliRunner
 
 import ebac
@@ -196,10 +197,8 @@ def test_on_hardware_no_target_is_taken() -> None:
 
 @pytest.mark.slow
 def test_the_command_changes_parameters_at_their_times(tmp_path: Path) -> None:
-    text = EXAMPLE.read_text(encoding="utf-8").replace("silent = 10", "silent = 1000")
-    limits = "overruns = 100000\nforce_age = 10.0\njump = 1.0\nspeed = 100.0"
     config = tmp_path / "joystick.toml"
-    config.write_text(text.replace("speed = 1.0", limits), encoding="utf-8")
+    config.write_text(patient_file(EXAMPLE.read_text(encoding="utf-8")), encoding="utf-8")
     orders = ["1 hand.target=-0.01", "0.5 environment.stiffness=5e3 law.kp=0"]
     command = ["run", str(config), "--simulated", "--seconds", "1.5", "--out", str(tmp_path / "o")]
     ran = CliRunner().invoke(

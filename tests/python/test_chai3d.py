@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from busy_machine import patient_file
 
 ROOT = Path(__file__).parents[2]
 #: Folders of chai3dConfig.cmake and of an installed core (`cmake --install BUILD --component core --prefix ...`).
@@ -73,10 +74,7 @@ def test_a_program_of_chai3d_is_the_world_of_a_run_on_drives(built: Path, tmp_pa
     from ebac import datasets
 
     file = datasets.write("joystick", tmp_path)
-    text = file.read_text(encoding="utf-8")
-    limits = "overruns = 100000\nforce_age = 10.0\njump = 1.0\nspeed = 100.0"
-    text = text.replace("silent = 10", "silent = 1000").replace("speed = 1.0", limits)
-    file.write_text(text, encoding="utf-8")
+    file.write_text(patient_file(file.read_text(encoding="utf-8")), encoding="utf-8")
     program = f"{built / 'chai3d_program'} --engine --stiffness 20000"
     command = [sys.executable, "-m", "ebac.cli", "run", str(file), "--simulated", "--seconds", "4"]
     done = subprocess.run(

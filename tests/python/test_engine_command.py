@@ -12,6 +12,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from busy_machine import patient_file
 from typer.testing import CliRunner, Result
 
 import ebac
@@ -78,10 +79,7 @@ pytestmark = [
 @pytest.fixture
 def room(tmp_path: Path) -> Path:
     """A folder with the example, patient with a busy machine, and the engine of `ebac demo`."""
-    text = EXAMPLE.read_text(encoding="utf-8")
-    limits = "overruns = 100000\nforce_age = 10.0\njump = 1.0\nspeed = 100.0"
-    text = text.replace("silent = 10", "silent = 1000").replace("speed = 1.0", limits)
-    text += "\n[engine]\nstale = 0.3\n"
+    text = patient_file(EXAMPLE.read_text(encoding="utf-8")) + "\n[engine]\nstale = 0.3\n"
     (tmp_path / "joystick.toml").write_text(text, encoding="utf-8")
     datasets.write("engine", tmp_path)
     return tmp_path

@@ -27,11 +27,17 @@ def session(tmp_path: Path) -> Iterator[Session]:
         yield one
 
 
-def until(true: Callable[[], bool], seconds: float = 10.0) -> None:
+def until(session: Session, true: Callable[[], bool], seconds: float = 10.0) -> None:
     end = time.monotonic() + seconds
     while not true():
-        assert time.monotonic() < end, "it did not come"
+        assert time.monotonic() < end, f"it did not come: {told(session)}"
         time.sleep(0.02)
+
+
+def told(session: Session) -> str:
+    """Return the fault of a session in the words of a loop: those of a stall have the test repeated."""
+    fault = session.fault
+    return f"fault {int(fault)} ({fault.name.lower().replace('_', ' ')})"
 
 
 def in_contact(session: Session) -> bool:
@@ -43,7 +49,7 @@ def in_contact(session: Session) -> bool:
 def test_law_world_and_delay_change_while_the_loop_runs(session: Session) -> None:
     session.change(observer=False)
     session.start()
-    until(lambda: in_contact(session))
+    until(session, lambda: in_contact(session))
     run = session.run
     assert run is not None
     for change in (
@@ -70,7 +76,7 @@ def test_law_world_and_delay_change_while_the_loop_runs(session: Session) -> Non
 
 def test_a_law_that_takes_over_makes_no_step(session: Session) -> None:
     session.start()
-    until(lambda: in_contact(session))
+    until(session, lambda: in_contact(session))
     assert session.run is not None
     time.sleep(0.5)
     session.change(law="direct")
@@ -93,9 +99,9 @@ def test_what_needs_a_restart_is_restarted(session: Session) -> None:
     assert session.change(delay=1) is False
     session.change(device="joystick-3")
     assert session.run is not None
-    until(lambda: session.run.ticks > 200)  # type: ignore[union-attr]
+    until(session, lambda: session.run.ticks > 200)  # type: ignore[union-attr]
     assert session.run.tail(1).axes == 3
-    assert not session.fault
+    assert not session.fault, told(session)
 
 
 @pytest.mark.parametrize(
@@ -123,9 +129,9 @@ def test_every_name_can_be_chosen() -> None:
 @pytest.mark.slow
 def test_dragging_moves_the_handle_and_leaving_lets_the_force_fade(session: Session) -> None:
     session.start()
-    until(lambda: session.run is not None and session.run.ticks > 400)
+    until(session, lambda: session.run is not None and session.run.ticks > 400)
     session.hand.drag([0.03, 0.0])
-    until(lambda: session.hand.place == [0.03, 0.0] and in_contact(session))
+    until(session, lambda: session.hand.place == [0.03, 0.0] and in_contact(session))
     assert session.run is not None
     time.sleep(0.5)
     held = abs(float(session.run.tail(50).axis("f_meas", 0).mean()))
@@ -135,7 +141,7 @@ def test_dragging_moves_the_handle_and_leaving_lets_the_force_fade(session: Sess
     assert abs(float(session.run.tail(50).axis("f_meas", 0).mean())) == pytest.approx(held, abs=0.3)
     time.sleep(1.2)
     assert abs(float(session.run.tail(50).axis("f_meas", 0).mean())) < 0.1 * held
-    assert session.running
+    assert session.running, told(session)
 
 
 def test_a_hand_moves_before_or_after_it_is_left_and_never_between() -> None:
@@ -173,11 +179,11 @@ def test_a_dead_man_key_starts_and_stops_it(tmp_path: Path) -> None:
         for _ in range(20):
             session.hold()
             time.sleep(0.05)
-        assert session.running
+        assert session.running, told(session)
         released = time.monotonic()
-        until(lambda: not session.running, 3)
+        until(session, lambda: not session.running, 3)
         assert time.monotonic() - released < 1.5
-        until(lambda: session.run is not None and session.run.report is not None)
+        until(session, lambda: session.run is not None and session.run.report is not None)
         report = session.run.report  # type: ignore[union-attr]
         assert report is not None
         assert report.ended_by == "dead-man key"
@@ -216,9 +222,9 @@ def test_whatever_goes_wrong_beside_it_the_dead_man_key_is_watched(tmp_path: Pat
         for _ in range(2):  # and again in the next run
             session.hold()
             session.start()
-            until(lambda: bool(session.run and session.run.ticks > 0))
+            until(session, lambda: bool(session.run and session.run.ticks > 0))
             session.hand._left, session.hand._left_at = 0.0, []  # a hand of other axes
-            until(lambda: bool(session.run and session.run.done))
+            until(session, lambda: bool(session.run and session.run.done))
             assert session.trouble
             assert session._watch.is_alive()
 
@@ -228,7 +234,7 @@ def test_frames_have_rows_words_and_history(session: Session) -> None:
     frames = Frames(session)
     assert frames.frame()["verdict"]["head"] == "At rest"
     session.start()
-    until(lambda: in_contact(session))
+    until(session, lambda: in_contact(session))
     time.sleep(2)
     frame = frames.frame()
     assert set(frame) == FRAME

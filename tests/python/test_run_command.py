@@ -13,6 +13,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from busy_machine import patient_file
 from typer.testing import CliRunner
 
 import ebac
@@ -35,11 +36,8 @@ RUN = [sys.executable, "-m", "ebac.cli", "run"]
 @pytest.fixture
 def config(tmp_path: Path) -> Path:
     """The example, patient with a busy machine."""
-    text = EXAMPLE.read_text(encoding="utf-8")
-    limits = "overruns = 100000\nforce_age = 10.0\njump = 1.0\nspeed = 100.0"
-    text = text.replace("silent = 10", "silent = 1000").replace("speed = 1.0", limits)
     path = tmp_path / "joystick.toml"
-    path.write_text(text, encoding="utf-8")
+    path.write_text(patient_file(EXAMPLE.read_text(encoding="utf-8")), encoding="utf-8")
     assert Configuration.load(path).silent == 1000
     return path
 
