@@ -1,4 +1,4 @@
-"""What the worst hands of `ebac` draw: at four walls, with friction, jitter, finer counts and a wrong mass."""
+"""What the worst hands of `ebac` draw: at four walls, with friction, jitter, finer counts, a wrong mass, in ms."""
 
 from __future__ import annotations
 
@@ -17,6 +17,8 @@ WALLS = ("d1K10", "d2K10", "d1K20", "d2K20")
 ENDS = ("d1K10", "d2K20")
 #: Reserve of the account [J]; more is bold.
 RESERVE = 2e-3
+#: How fast the own force of a hand changes at most: 20 N in a millisecond.
+LIMIT = "--pull-rate 20000"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -34,7 +36,7 @@ SEARCHES = (
     Search(label="as declared", seeds=(1, 2, 3)),
     Search(
         label="own force of the hand at most 20 N/ms, `--pull-rate 20000`",
-        options="--pull-rate 20000",
+        options=LIMIT,
         walls=("d2K20",),
     ),
     Search(
@@ -111,6 +113,45 @@ def _search(printed: Printed, one: Search, condition: str, seed: int) -> list[Ro
     )
 
 
+#: Rows of the hands that need milliseconds: what stands in front, options of `ebac worst`, walls.
+SLOWED = (
+    ("10 kN/m, one and two samples", "", ("d1K10", "d2K10")),
+    ("20 kN/m, one and two samples", "", ("d1K20", "d2K20")),
+    (
+        "counts of 3.8 µm, the first and the last of these walls",
+        "--device-counts 8192",
+        ENDS,
+    ),
+    (
+        "0.1 N of declared friction, 20 kN/m and two samples",
+        "--device-coulomb 0.1",
+        ("d2K20",),
+    ),
+    ("0.3 N of declared friction, 10 kN/m and one sample", "--device-coulomb 0.3", ("d1K10",)),
+)
+
+
+def milliseconds(printed: Printed) -> str:
+    """What the worst hand draws, without and with a limit on how fast its own force changes."""
+    rows = [
+        [label, *(_of_walls(printed, walls, f"{options} {slow}") for slow in ("", LIMIT))]
+        for label, options, walls in SLOWED
+    ]
+    return table(["", "any hand", "20 N/ms at most"], rows)
+
+
+def _of_walls(printed: Printed, walls: Sequence[str], options: str) -> str:
+    search = Search(label="", options=" ".join(options.split()))
+    found = [_search(printed, search, wall, seed=1) for wall in walls]
+    return f"{', '.join(_bold(max(r['energy_drawn_J'] for r in rows)) for rows in found)} mJ"
+
+
+def _bold(energy: float) -> str:
+    return f"**{1e3 * energy:.1f}**" if energy > RESERVE else f"{1e3 * energy:.1f}"
+
+
 def _range(energies: Sequence[float]) -> str:
+    if min(energies) > 1:
+        return f"{max(energies):.0f} J"
     low, high = (f"{1e3 * e:.1f}" for e in (min(energies), max(energies)))
     return f"{low} mJ" if low == high else f"{low} to {high} mJ"

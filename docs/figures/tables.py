@@ -77,6 +77,7 @@ TABLES: dict[str, Callable[[Printed], str]] = {
     "friction-declared": friction.declared,
     "friction-kept": friction.kept_walls,
     "limits-worst": limits.worst_hands,
+    "limits-milliseconds": limits.milliseconds,
     "limits-scale": sensors.scale,
     "limits-steps": sensors.steps,
     "limits-motor": sensors.motor,

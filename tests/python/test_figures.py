@@ -343,6 +343,8 @@ def test_laws_without_a_colour_of_their_own_get_different_ones() -> None:
     assert shades["tca-tuned"] == COLOURS["tca"]
     assert [shades["mine"], shades["ebac, kp=0"]] == [*OTHER_LAWS[:2]]
     assert len(colours(map(str, range(6)))) == 6  # they begin anew
+    forms = ["tca", "tca-tuned", "tca-tuned-observer"]
+    assert len(set(colours(forms).values())) == 3
 
 
 def test_pages_have_the_colours_of_the_figures(run: Run) -> None:

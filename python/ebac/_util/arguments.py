@@ -44,11 +44,23 @@ ELSEWHERE = {
     ("Device", "mass"): _MASS,
     ("Mechanics", "mass"): _MASS,
     ("Device", "damping"): "give mechanics=ebac.Mechanics(damping=...)",
+    ("Device", "friction"): "give mechanics=ebac.Mechanics(coulomb=...)",
     ("Device", "count"): "give encoder=ebac.Encoder(counts_per_turn=...), of the motor",
     ("Encoder", "count"): "give counts_per_turn, of the motor; device.count is that at the handle",
     ("Encoder", "resolution"): _RESOLUTION,
     ("Timing", "rate"): "give dt, 1/rate",
     ("Mesh", "path"): "did you mean 'file'",
+}
+
+
+#: Other words for a name, where it is not one itself and none is near.
+SYNONYMS = {
+    "friction": "coulomb",
+    "wall": "environment",
+    "world": "environment",
+    "arm": "hand",
+    "operator": "hand",
+    "duration": "seconds",
 }
 
 
@@ -157,7 +169,9 @@ def near(name: object, known: Iterable[str]) -> list[str]:
 def did_you_mean(name: object, known: Iterable[str], meant: Sequence[str] = ()) -> str:
     """Return those of `meant` that are known, or the nearest names, as the next words of a message; "" for none."""
     names = list(known)
-    quoted = [repr(other) for other in [one for one in meant if one in names] or near(name, names)]
+    other = SYNONYMS.get(str(name), "")
+    found = [one for one in meant if one in names] or near(name, names) or [other] * (other in names)
+    quoted = [repr(one) for one in found]
     before, last = ", ".join(quoted[:-1]), "".join(quoted[-1:])
     return f", did you mean {f'{before} or {last}' if before else last}" if quoted else ""
 

@@ -29,6 +29,14 @@ def tell(file: Path | str, device: Device) -> None:
         output.note(f"{file}: {text}")
 
 
+def tell_change(option: str, before: Device, after: Device) -> None:
+    """Say on stderr what an option makes doubtful of a device."""
+    known = doubts(before)
+    for text in doubts(after):
+        if text not in known:
+            output.note(f"{option}: {text}")
+
+
 def doubts(device: Device) -> list[str]:
     """Return a sentence for each number that is doubtful: its value, what is usual, and where to look."""
     motor = device.motor

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ebac import presets
-from ebac.cli import by_name, by_option, doubtful_device, doubtful_wall
+from ebac.cli import by_name, by_option, doubtful_device, doubtful_wall, output
 
 if TYPE_CHECKING:
     from ebac._core import Device, Hand, Timing
@@ -21,11 +21,15 @@ RATES = (10.0, 1e5)
 
 def base_scenario(file: Path | None) -> Scenario:
     """Return the scenario to start from; what of its device and wall is likely in a wrong unit is said on stderr."""
+    from ebac._util.text_file import read_text
+    from ebac._util.toml import parsed
     from ebac.scenario import Scenario
 
     if file is None:
         return Scenario()
     found = Scenario.load(file)
+    if not parsed(read_text(file)):
+        output.note(f"{file}: sets nothing, so this is the reference device at the reference wall")
     doubtful_device.tell(file, found.device)
     doubtful_wall.tell_file(file, found.environment)
     return found
@@ -177,8 +181,10 @@ def choose_device(device: Device, options: Mapping[str, Any]) -> Device:
     chosen = known_device(name) if name is not None else device
     for option, (part, field) in DEVICE_PARTS.items():
         if options.get(option) is not None:
+            before = chosen
             changed = getattr(chosen, part).replace(**{field: options[option]})
             chosen = chosen.replace(**{part: changed})
+            doubtful_device.tell_change(f"--{option.replace('_', '-')}", before, chosen)
     if not chosen.sensor.fitted and options.get("device_noise"):
         raise ValueError(
             "--device-noise: the device has no force sensor that could have noise; leave it out"

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
 from io import BytesIO
 from itertools import cycle
 from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.colors import to_hex, to_rgb
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
@@ -21,6 +22,8 @@ from ebac.trace import Trace
 
 #: Colours of laws that have none of their own: a user's, or one with other parameters.
 OTHER_LAWS = ("#9933ff", "#994d80", "#664dcc")
+#: Shares of white, or of black below zero, in the colours of the forms of one design in a picture.
+FORMS = (0.0, 0.4, -0.5)
 #: One colour per quantity that is not the law's own, in figures and on pages alike.
 QUANTITIES = {
     "x": "#a6a6a6",
@@ -126,9 +129,27 @@ def colour(law: str) -> str:
 
 
 def colours(laws: Iterable[str]) -> dict[str, str]:
-    """Return the colours of all laws of a picture; those that have none of their own get different ones."""
+    """Return the colours of all laws of a picture; those that have none of their own get different ones.
+
+    Of several forms of one design, as `tca` and `tca-tuned`, the first has its colour, the next a lighter one and the
+    third a darker one.
+    """
     others = cycle(OTHER_LAWS)
-    return {law: _own_colour(law) or next(others) for law in dict.fromkeys(laws)}
+    forms: dict[str, Iterator[float]] = {}
+    found: dict[str, str] = {}
+    for law in dict.fromkeys(laws):
+        own = _own_colour(law)
+        if own is None:
+            found[law] = next(others)
+        else:
+            found[law] = _mixed(own, next(forms.setdefault(own, cycle(FORMS))))
+    return found
+
+
+def _mixed(shade: str, white: float) -> str:
+    """Return a colour with a share of white, or of black where it is below zero."""
+    other = 1.0 if white > 0 else 0.0
+    return to_hex([c + abs(white) * (other - c) for c in to_rgb(shade)])
 
 
 def dress(ax: Axes, ylabel: str) -> None:
