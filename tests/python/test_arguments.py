@@ -243,6 +243,13 @@ def test_a_name_that_is_none_is_answered_with_the_nearest_and_with_what_lists_al
     assert len(near("law-1x", many)) == 3
     assert near("virt", ["tca", "virtual-coupling"]) == ["virtual-coupling"]
     assert near("zzz", few) == []
+    # Another word for the same.
+    with pytest.raises(TypeError, match="'friction', did you mean 'coulomb'"):
+        ebac.Mechanics(friction=0.1)  # type: ignore[call-arg]
+    with pytest.raises(ValueError, match=r"friction: no such name: give coulomb in \[device\.mech"):
+        ebac.Scenario.from_toml("[device]\nfriction = 0.1")
+    with pytest.raises(ValueError, match="wall: no such name, did you mean 'environment'"):
+        ebac.Scenario.from_toml("[wall]\nstiffness = 1e4")
     assert near("bet", ["law.beta", "x"]) == ["law.beta"]
 
 

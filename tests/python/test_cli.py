@@ -636,6 +636,13 @@ def test_a_simulation_notes_a_device_in_wrong_units() -> None:
     assert json.loads(result.stdout)["command"] == "wall"
 
 
+def test_a_file_that_sets_nothing_is_named() -> None:
+    Path("mine.toml").write_text("# stiffness = 2e4\n", encoding="utf-8")
+    words = ("wall", "--law", "direct", "--seconds", "0.1", "--no-files", "--json")
+    result = ebac_command(*words, "--scenario", "mine.toml")
+    assert "mine.toml: sets nothing" in " ".join(result.stderr.split())
+
+
 def test_a_run_notes_a_device_in_wrong_units() -> None:
     ebac_command("demo", "joystick")
     with Path("joystick.toml").open("a", encoding="utf-8") as file:
@@ -706,11 +713,15 @@ def test_a_file_with_an_unusual_part_is_noted(table: str, words: str) -> None:
             "wall --wall-stiffness 10",
             "--wall-stiffness: a wall of 10 N/m: usual are 50 to 500000 N/m",
         ),
+        (
+            "wall --device-counts 32",
+            "--device-counts: device: a count of the encoder = 0.982 mm at the handle",
+        ),
         ("study --condition d1K10,d1K10000", "condition d1K10000: a wall of 1e+07 N/m: usual are"),
         ("study --condition d1b1K2000", "so that 2000 N/m is d1b1K2."),
     ],
 )
-def test_a_wall_in_a_wrong_unit_is_noted(given: str, words: str) -> None:
+def test_an_unusual_number_of_an_option_is_noted(given: str, words: str) -> None:
     small = ("--law", "direct", "--seconds", "0.5", "--no-files", "--json")
     result = ebac_command(*given.split(), *small)
     assert result.stderr.count("Note:") == 1

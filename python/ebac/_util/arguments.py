@@ -170,7 +170,9 @@ def did_you_mean(name: object, known: Iterable[str], meant: Sequence[str] = ()) 
     """Return those of `meant` that are known, or the nearest names, as the next words of a message; "" for none."""
     names = list(known)
     other = SYNONYMS.get(str(name), "")
-    found = [one for one in meant if one in names] or near(name, names) or [other] * (other in names)
+    found = (
+        [one for one in meant if one in names] or near(name, names) or [other] * (other in names)
+    )
     quoted = [repr(one) for one in found]
     before, last = ", ".join(quoted[:-1]), "".join(quoted[-1:])
     return f", did you mean {f'{before} or {last}' if before else last}" if quoted else ""

@@ -149,7 +149,8 @@ def colours(laws: Iterable[str]) -> dict[str, str]:
 def _mixed(shade: str, white: float) -> str:
     """Return a colour with a share of white, or of black where it is below zero."""
     other = 1.0 if white > 0 else 0.0
-    return to_hex([c + abs(white) * (other - c) for c in to_rgb(shade)])
+    red, green, blue = (c + abs(white) * (other - c) for c in to_rgb(shade))
+    return to_hex((red, green, blue))
 
 
 def dress(ax: Axes, ylabel: str) -> None:
