@@ -140,6 +140,28 @@ def milliseconds(printed: Printed) -> str:
     return table(["", "any hand", "20 N/ms at most"], rows)
 
 
+#: Counts of an encoder [m], counts of a turn of its motor, seeds.
+COUNTS = (
+    ("31 µm", 1024, (1,)),
+    ("15 µm", 2048, (1,)),
+    ("7.7 µm", 4096, (1,)),
+    ("3.8 µm", 8192, (1, 2)),
+    ("1.9 µm", 16384, (1, 2)),
+    ("0.5 µm", 65536, (1,)),
+)
+
+
+def counts(printed: Printed) -> str:
+    """What the worst hand draws at 10 kN/m and one sample of delay with finer counts, seed by seed."""
+    rows = []
+    for size, per_turn, seeds in COUNTS:
+        search = Search(label="", options="" if per_turn == 1024 else f"--device-counts {per_turn}")
+        found = [_search(printed, search, "d1K10", seed) for seed in seeds]
+        drawn = [_bold(max(r["energy_drawn_J"] for r in rows)) for rows in found]
+        rows.append([size, str(per_turn), f"{', '.join(drawn)} mJ"])
+    return table(["counts of the encoder", "`--device-counts`", "drawn by the worst hand"], rows)
+
+
 def _of_walls(printed: Printed, walls: Sequence[str], options: str) -> str:
     search = Search(label="", options=" ".join(options.split()))
     found = [_search(printed, search, wall, seed=1) for wall in walls]

@@ -78,6 +78,7 @@ TABLES: dict[str, Callable[[Printed], str]] = {
     "friction-kept": friction.kept_walls,
     "limits-worst": limits.worst_hands,
     "limits-milliseconds": limits.milliseconds,
+    "limits-counts": limits.counts,
     "limits-scale": sensors.scale,
     "limits-steps": sensors.steps,
     "limits-motor": sensors.motor,
