@@ -3,7 +3,7 @@
     python docs/figures/tables.py                      # all but those of `ASKED`: about an hour on two cores
     python docs/figures/tables.py grid --kept DIR      # one; what DIR holds of an earlier call is not run again
     python docs/figures/tables.py speed                # only by its name: where nothing else runs
-    python docs/figures/tables.py limits-worst         # only by its name, as all of `limits-` and `friction-`
+    python docs/figures/tables.py limits-worst         # only by its name, as all of `limits-`, `held-` and `friction-`
 
 A table stands between `<!-- table: NAME -->` and `<!-- end -->`; what a page says around it stays as it is.
 """
@@ -18,6 +18,7 @@ from pathlib import Path
 import adversaries as hostile
 import device_tables as devices
 import friction_tables as friction
+import held_tables as holding
 import identify_tables as identified
 import law_tables as laws
 import limit_tables as limits
@@ -76,6 +77,8 @@ TABLES: dict[str, Callable[[Printed], str]] = {
     "identify-gains-seeds": identified.gains_by_seed,
     "friction-declared": friction.declared,
     "friction-kept": friction.kept_walls,
+    "held-energy": holding.energy,
+    "held-limited": holding.limited,
     "limits-worst": limits.worst_hands,
     "limits-milliseconds": limits.milliseconds,
     "limits-counts": limits.counts,
@@ -86,7 +89,7 @@ TABLES: dict[str, Callable[[Printed], str]] = {
     "speed": laws.speed,
 }
 #: Left out unless asked for: what `speed` says depends on what else the machine does; the others take long.
-ASKED = {"speed", *(name for name in TABLES if name.startswith(("friction-", "limits-")))}
+ASKED = {"speed", *(name for name in TABLES if name.startswith(("friction-", "held-", "limits-")))}
 
 
 def main() -> None:
