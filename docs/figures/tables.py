@@ -30,24 +30,7 @@ import tracking_tables as tracked
 from printed import Printed, names, put
 
 DOCS = Path(__file__).parents[1]
-PAGES = tuple(
-    DOCS / name
-    for name in (
-        "explanation/evidence.md",
-        "explanation/rivals.md",
-        "explanation/robustness.md",
-        "explanation/zwidth.md",
-        "explanation/friction.md",
-        "explanation/ablation.md",
-        "explanation/speed.md",
-        "explanation/story.md",
-        "explanation/criteria.md",
-        "explanation/limits_energy.md",
-        "explanation/limits_sensor.md",
-        "explanation/identification.md",
-        "how-to/evaluate_tracking.md",
-    )
-)
+PAGES = tuple(page for page in sorted(DOCS.rglob("*.md")) if names(page))
 TABLES: dict[str, Callable[[Printed], str]] = {
     "grid": populations.grid,
     "tuned": rivals.tuned,

@@ -3,6 +3,7 @@
 from pathlib import Path
 
 import pytest
+from busy_machine import LATE
 
 CONFTEST = Path(__file__).with_name("conftest.py")
 
@@ -116,7 +117,7 @@ def test_the_words_are_those_of_a_fault() -> None:
     import ebac
 
     names = {9: "drive silent", 11: "heartbeat lost", 16: "force stale", 19: "overruns"}
-    text = CONFTEST.read_text(encoding="utf-8")
+    text = LATE.pattern
     for number, name in names.items():
         fault = ebac.Fault(number)
         assert fault.name.lower().replace("_", " ") == name
