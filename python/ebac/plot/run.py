@@ -51,7 +51,7 @@ Panel = Callable[[Axes, Trace, int, Trace], None]
 def plot_trace(trace: Trace) -> Picture:
     """Draw a run: position, force, beta and energy over time, one column of panels per axis in use.
 
-    A log that lacks columns of a loop, such as one of another program, is drawn with all columns it has.
+    A log that lacks columns of a loop, such as one of another program, is drawn with all of its columns that change.
 
     Parameters
     ----------
@@ -72,7 +72,9 @@ def plot_trace(trace: Trace) -> Picture:
     if len(trace) < 2:
         raise ValueError(f"the trace has {len(trace)} rows: a figure needs at least 2")
     if not all(name in trace for name in LOOP):
-        return plot_columns(trace, [name for name in trace if name != "t"])
+        others = [name for name in trace if name not in ("t", "tick")]
+        moving = [name for name in others if np.ptp(trace[name]) != 0]
+        return plot_columns(trace, moving or others)
     used = used_axes(trace)
     panels: list[Panel] = [_position, _force, _energy]
     if any(_has_beta(trace, axis) for axis in used):
