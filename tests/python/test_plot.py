@@ -47,6 +47,16 @@ def test_a_log_without_the_columns_of_a_loop_is_drawn_with_what_it_has(
     assert labels(figure) == ["position [mm]", "force [N]"]
 
 
+def test_of_a_log_without_the_columns_of_a_loop_what_never_changes_is_left_out(
+    tmp_path: Path,
+) -> None:
+    file = tmp_path / "other.csv"
+    rows = [f"{i * 1e-3},{i},{i * 1e-5},0" for i in range(100)]
+    file.write_text("\n".join(["t,tick,x,sequence", *rows]))
+    (panel,) = ebac.load(file).plot().axes
+    assert len(panel.lines) == 1
+
+
 def test_one_column_of_panels_per_axis_in_use(run: Run) -> None:
     joystick = ebac.presets.device("joystick")
     figure = plot_trace(run("ebac", device=joystick, seconds=1.0, observer=False))
