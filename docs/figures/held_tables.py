@@ -9,6 +9,7 @@ import numpy as np
 from printed import Printed, Row, table
 
 import ebac
+from ebac._util.plural import plural
 
 #: Length of a run [s], and of what is averaged [s]; from then on a hand rests [s].
 HOUR, WINDOW, RESTS = 3600.0, 1.0, 100.0
@@ -16,19 +17,11 @@ HOUR, WINDOW, RESTS = 3600.0, 1.0, 100.0
 SURFACE, TARGET = 0.01, 0.03
 #: Share of the force below which a wall counts as limited.
 LIMITED = 0.9
-#: Walls: stiffness [N/m] and delay [samples], and how they are called.
-WALLS = {
-    (1e4, 1): "10 kN/m, 1 sample",
-    (1e4, 2): "10 kN/m, 2 samples",
-    (2e4, 1): "20 kN/m, 1 sample",
-    (2e4, 2): "20 kN/m, 2 samples",
-    (3.5e4, 2): "35 kN/m, 2 samples",
-}
 
 
 @dataclass(frozen=True)
 class Held:
-    """A hand: mass [kg], damping [N s/m], stiffness [N/m]; its wall; the sensor's noise [N]."""
+    """A hand: mass [kg], damping [N s/m], stiffness [N/m]; its wall [N/m] and delay [samples]; the noise [N]."""
 
     mass: float
     damping: float
@@ -41,6 +34,12 @@ class Held:
         """What the table calls the hand."""
         hand = f"{self.mass:g} kg, {self.damping:g} N s/m, {self.stiffness:g} N/m"
         return hand if self.noise else f"{hand}; no noise"
+
+    @property
+    def where(self) -> str:
+        """What the table calls its wall."""
+        stiffness, delay = self.wall
+        return f"{1e-3 * stiffness:g} kN/m, {plural(delay, 'sample')}"
 
     @property
     def name(self) -> str:
@@ -67,9 +66,12 @@ class Held:
         )
 
 
-FOUR = (Held(0.15, 6, 300), Held(0.05, 20, 100), Held(1, 20, 100), Held(0.754, 36, 134))
+#: Hands that draw: first the four of the page's script, then hostile ones.
 DRAWING = (
-    *FOUR,
+    Held(0.15, 6, 300),
+    Held(0.05, 20, 100),
+    Held(1, 20, 100),
+    Held(0.754, 36, 134),
     Held(1, 40, 100),
     Held(1, 60, 100),
     Held(1, 100, 100),
@@ -84,6 +86,7 @@ DRAWING = (
     Held(1, 100, 100, noise=0.0),
     Held(1.5, 100, 300, (3.5e4, 2), noise=0.0),
 )
+#: Hands that lose their wall, and the noises that they are tried with.
 LOSING = (
     Held(1, 100, 100),
     Held(1, 60, 100),
@@ -104,7 +107,7 @@ def energy(printed: Printed) -> str:
         rows.append(
             [
                 one.label,
-                WALLS[one.wall],
+                one.where,
                 f"{1e3 * found['drawn_J']:.3g} mJ",
                 f"{1e6 * found['power_W']:.2g} µW",
                 _after([found]),
@@ -119,13 +122,13 @@ def limited(printed: Printed) -> str:
     rows = []
     for one in LOSING:
         found = [_measured(printed, one, seed)[0] for seed in SEEDS]
-        deep = [1e3 * row["too_deep_m"] for row in found]
+        deep = sorted({round(1e3 * row["too_deep_m"], 1) for row in found})
         rows.append(
             [
                 one.label,
-                WALLS[one.wall],
+                one.where,
                 _after(found),
-                f"{min(deep):.1f} to {max(deep):.1f} mm",
+                f"{' to '.join(f'{d:.1f}' for d in deep)} mm",
             ]
         )
     return table(["hand", "wall, delay", "limited after", "too deep after an hour"], rows)
@@ -141,15 +144,16 @@ def _measured(printed: Printed, one: Held, seed: int) -> list[Row]:
 
 
 def _measure(one: Held, seed: int) -> Row:
-    trace = ebac.simulate(one.scenario(seed), "ebac")
+    scenario = one.scenario(seed)
+    trace = ebac.simulate(scenario, "ebac")
     drawn = trace.axis("true.energy")
-    ticks = round(WINDOW / one.scenario(seed).timing.dt)
+    ticks = round(WINDOW / scenario.timing.dt)
     admitted = trace.axis("law.admitted")
     whole = admitted[: len(admitted) // ticks * ticks].reshape(-1, ticks)
     low = np.flatnonzero(np.mean(whole < LIMITED, axis=1) > 0.5)
     end = int(low[0]) if len(low) else int(HOUR)
     first = int(min(RESTS, end / 2))
-    stiffness = one.wall[0]
+    stiffness, _ = one.wall
     rest = (stiffness * SURFACE + one.stiffness * TARGET) / (stiffness + one.stiffness)
     return {
         "drawn_J": max(0.0, -float(drawn.min())),

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from printed import NOISE, NOISY, Printed, Row, table
+from printed import NOISE, NOISY, Printed, Row, of_two, table
 
 import ebac
 from ebac.studies import scenario_changes as to
@@ -160,6 +160,19 @@ def counts(printed: Printed) -> str:
         drawn = [_bold(max(r["energy_drawn_J"] for r in rows)) for rows in found]
         rows.append([size, str(per_turn), f"{', '.join(drawn)} mJ"])
     return table(["counts of the encoder", "`--device-counts`", "drawn by the worst hand"], rows)
+
+
+def rate(printed: Printed) -> str:
+    """Hands that are good / exact and still at 500 Hz."""
+    found = printed.rows(
+        f"study --rate 500 {NOISE} -c d1K10,d2K10,d1K20,d2K20,d1K35 --law ebac --no-files"
+    )
+    hands = {row["condition"]: of_two(row["good"], row["exact_and_still"]) for row in found}
+    rows = [
+        [f"{stiffness} kN/m", *(hands.get(f"d{delay}K{stiffness}", "") for delay in (1, 2))]
+        for stiffness in (10, 20, 35)
+    ]
+    return table(["wall", "1 sample of delay", "2 samples"], rows)
 
 
 def _of_walls(printed: Printed, walls: Sequence[str], options: str) -> str:

@@ -65,6 +65,7 @@ TABLES: dict[str, Callable[[Printed], str]] = {
     "limits-worst": limits.worst_hands,
     "limits-milliseconds": limits.milliseconds,
     "limits-counts": limits.counts,
+    "limits-rate": limits.rate,
     "limits-scale": sensors.scale,
     "limits-steps": sensors.steps,
     "limits-motor": sensors.motor,

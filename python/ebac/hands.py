@@ -90,7 +90,8 @@ def as_hand(given: Any) -> Any:
     """Return the `Hand` that a model alone stands for; what is neither is returned as it is."""
     if isinstance(given, PRESETS):
         return Hand(model=given)
-    if isinstance(given, (Hand, type)) or not hasattr(given, "force"):
+    of_core = type(given).__module__ == Hand.__module__  # a world has a force as well
+    if of_core or isinstance(given, type) or not hasattr(given, "force"):
         return given
     numbers = {
         name: getattr(given, name, getattr(OwnHand, name))

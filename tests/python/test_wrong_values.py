@@ -47,6 +47,10 @@ def trace() -> Any:
             "Scenario.hand = the class LetGo (call it: LetGo()): must be Hand",
         ),
         (
+            lambda t: E.Scenario(hand=E.Free()),
+            "Scenario.hand = Free(): must be Hand",
+        ),
+        (
             lambda t: E.Hand(model=E.hands.LetGo),
             "Hand.model = the class LetGo (call it: LetGo()): must be Reflex, FingerPad, NonlinearGrip, LetGo, an "
             "object with force(t, x, v), or None",

@@ -12,6 +12,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from busy_machine import patient_file
 from hypothesis import example, given
 from hypothesis import strategies as st
 from typer.testing import CliRunner, Result
@@ -49,15 +50,9 @@ _numbers = count()
 
 def text_of(**more: str) -> str:
     """The example, patient with a busy machine and without a sensor; text to replace by name of the key."""
-    text = EXAMPLE.read_text(encoding="utf-8")
+    text = patient_file(EXAMPLE.read_text(encoding="utf-8"))
     text = text[: text.index("[sensor]")] + text[text.index("[recording]") :]
-    patient = "speed = 100.0\noverruns = 100000\npause = 100.0\njump = 1.0"
-    for before, after in {
-        "silent = 10": "silent = 1000",
-        "speed = 1.0": patient,
-        "seconds = 10.0": "seconds = 0.3",
-        **more,
-    }.items():
+    for before, after in {"seconds = 10.0": "seconds = 0.3", **more}.items():
         assert before in text, before
         text = text.replace(before, after)
     return text

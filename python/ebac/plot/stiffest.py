@@ -11,6 +11,7 @@ from matplotlib.lines import Line2D
 from matplotlib.ticker import LogLocator
 
 from ebac._util import formatting
+from ebac._util.plural import plural
 from ebac.plot.style import Picture, colours, dress, figure_legend, new_figure
 
 if TYPE_CHECKING:
@@ -24,6 +25,8 @@ LINES: dict[str, tuple[str, dict[str, Any]]] = {
     "good": ("good: quiet in force, too", {"lw": 1.8, "marker": "o", "ms": 3.5}),
     "good_in_time": ("good and in time: settled soon, too", {"ls": (0, (5, 3)), "lw": 1.4}),
 }
+#: How the share that a law needs is drawn.
+NEEDED: dict[str, Any] = {"color": "0.6", "lw": 0.8}
 
 
 def plot_stiffest(found: Stiffest) -> Picture:
@@ -59,11 +62,12 @@ def _draw(found: Stiffest, abreast: int) -> Picture:
         _panel(ax, found, laws.index(row.law), shades[row.law])
         dress(ax, "share of hands [%]" if place % columns == 0 else "")
         limit = row.good_N_per_m
-        good = "none good" if limit is None else f"good to {1e-3 * limit:g} kN/m"
+        more = " or more" if limit == found.stiffnesses[-1] else ""
+        good = "none good" if limit is None else f"good to {1e-3 * limit:g} kN/m{more}"
         ax.set_title(f"{row.law}\n{good}", fontsize="small", color=shades[row.law])
         if place + columns >= len(laws):
-            ax.set_xlabel("K [kN/m]")
-            ax.tick_params(labelbottom=True)
+            ax.set_xlabel("stiffness of the wall [kN/m]")
+            ax.tick_params(which="both", labelbottom=True)
     ax = grid[0, 0]
     ax.set_ylim(-4, 104)
     ax.set_xscale("log")
@@ -72,7 +76,9 @@ def _draw(found: Stiffest, abreast: int) -> Picture:
     ax.xaxis.set_minor_formatter("{x:g}")
     known = [LINES[name] for name in LINES if name in found.counts]
     handles = [Line2D([], [], color="0.3", **style) for _, style in known]
-    figure_legend(figure, handles, [name for name, _ in known])
+    handles.append(Line2D([], [], **NEEDED))
+    needed = f"needed: {plural(found.needed, 'hand')} of {found.hands}"
+    figure_legend(figure, handles, [*(name for name, _ in known), needed])
     device, _, *others = formatting.describe(found.base).split("; ")
     figure.suptitle(
         f"Which walls each law holds for {found.hands} hands, simulated: {device}; {others[-2]}",
@@ -85,7 +91,6 @@ def _panel(ax: Axes, found: Stiffest, law: int, shade: str) -> None:
     for name, counts in found.counts.items():
         share = 100 * counts[law] / found.hands
         ax.plot(1e-3 * found.stiffnesses, share, color=shade, clip_on=False, **LINES[name][1])
-    needed = 100 * found.needed / found.hands
-    ax.axhline(needed, color="0.6", lw=0.8, zorder=0)
+    ax.axhline(100 * found.needed / found.hands, **NEEDED, zorder=0)
     if len(found.stiffnesses) == 1:
         ax.set_xlim(*(1e-3 * found.stiffnesses[0] * np.array([0.5, 2])))
