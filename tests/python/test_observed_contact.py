@@ -56,6 +56,18 @@ def test_declared_friction_costs_no_wall(
     assert row.most_drawn_J < 1e-3
 
 
+@pytest.mark.parametrize(
+    "late", [0.0, 1e-4, 3e-4, 5e-4]
+)  # m, so that each lands at another part of a tick
+@pytest.mark.parametrize("stiffness", [30.0, 100.0, 300.0, 1000.0])
+def test_the_first_contact_with_a_soft_world_does_not_click(stiffness: float, late: float) -> None:
+    """The law counted with a stiff wall until it had met the world: 40 N for 1 ms on 30 N/m, then 3 N."""
+    wall = ebac.Wall(stiffness=stiffness, position=0.01 - late)
+    force = ebac.simulate(ebac.Scenario(device=NOISY, environment=wall, seconds=0.5))["f_cmd"]
+    first = int(np.argmax(force != 0))
+    assert 0 < force[first] < 1.3 * force[first + 1 : first + 5].min()
+
+
 @pytest.mark.parametrize("delay", [0, 1, 2])
 def test_the_velocity_is_predicted_without_lag_in_slow_motion(delay: int) -> None:
     path = ebac.Sine(centre=0.03, amplitude=13e-3, frequency=2.0)
