@@ -15,7 +15,7 @@ from typer.testing import CliRunner
 
 from ebac import datasets
 from ebac.cli import app
-from ebac.cli.wrong_input import OF_OTHERS
+from ebac.cli.wrong_input import IN_FILES, OF_OTHERS
 
 #: What a command needs beside the option that is wrong.
 NEEDS = {
@@ -118,6 +118,18 @@ def test_the_commands_that_have_an_option_of_theirs_are_named() -> None:
             if name_of(parameter)[0] == option
         }
         assert set(named) == have
+
+
+@pytest.mark.parametrize("option", IN_FILES)
+def test_a_fact_that_only_a_file_gives_is_named_by_its_key(option: str) -> None:
+    done = CliRunner().invoke(app, ["wall", option, "1"])
+    assert done.exit_code == 2
+    assert f"{IN_FILES[option]} of the file of --scenario" in " ".join(done.stderr.split())
+    preset = CliRunner().invoke(app, ["presets", "reference"]).output
+    key, _, part = IN_FILES[option].rpartition("[")
+    section = preset.partition(f"[{part}")[2].partition("\n[")[0]
+    assert section
+    assert not key or f"\n{key.split()[0]} = " in section
 
 
 def wrong(name: str, kind: Any) -> Iterator[tuple[str, str, str]]:

@@ -299,7 +299,7 @@ def test_mat_is_read(tmp_path: Path, trace: ebac.Trace) -> None:
         ("t,x\n0,1\n1\n", "row 2 has 1 cells"),
         ("t,x\n0,one\n1,2\n", "'one' in row 1, column 'x', is no number"),
         ("1,2\n3,4\n", "has no heading"),
-        ("", "lines = 0"),
+        ("", "the file is empty"),
     ],
 )
 def test_bad_files_get_a_clear_error(tmp_path: Path, text: str, message: str) -> None:

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -43,8 +44,8 @@ BAD: dict[str, tuple[bytes, str]] = {
     "slow.csv": (text("t,x,force", 1e3 * T, X, F), "rows are 1 s apart.*--unit t=ms"),
     "backwards.csv": (text("t,x,force", T[::-1], X, F), "t does not rise in row 2"),
     "three.csv": (text("t,x,force", T[:3], X[:3], F[:3]), "3 rows; needs at least 50"),
-    "empty.csv": (b"", "lines = 0: needs a heading"),
-    "heading.csv": (b"t,x,force\n", "lines = 1: needs a heading"),
+    "empty.csv": (b"", "is empty: needs a heading"),
+    "heading.csv": (b"t,x,force\n", "no rows below its heading"),
     "words.csv": (b"t,x,force\n0,left,1\n1,2,1\n", "'left' in row 1, column 'x', is no number"),
     "ragged.csv": (b"t,x,force\n0,1,1\n1,2\n", "row 2 has 2 cells, the heading 3"),
     "twice.csv": (
@@ -95,6 +96,34 @@ def test_a_command_says_it_in_one_line(command: str, name: str, bad: Callable[[s
     assert len(told) == 1, result.stderr
     assert told[0].startswith("Error: ")
     assert name in told[0]
+
+
+@pytest.mark.parametrize(
+    ("options", "why"),
+    [
+        ({"count": 1.0}, r"count = 1 m: x spans .* less than one count"),
+        ({"rate": 1.0}, r"rate = 1 Hz: rows are then 1 s apart"),
+        ({"lever": 0.1}, r"lever = 0\.1: the file has no angle or torque; leave it out"),
+    ],
+)
+def test_an_option_that_no_hand_fits_is_named(
+    options: dict[str, Any], why: str, tmp_path: Path
+) -> None:
+    (tmp_path / "log.csv").write_bytes(text("t,x,force", T, X, F))
+    with pytest.raises(ValueError, match=why):
+        load(tmp_path / "log.csv", **options)
+
+
+def test_a_log_of_another_format_is_turned_by_export(tmp_path: Path) -> None:
+    (tmp_path / "log.h5").touch()
+    with pytest.raises(ValueError, match=r"ebac log export log\.h5 log\.csv"):
+        load(tmp_path / "log.h5")
+
+
+@pytest.mark.parametrize("unit", ["in", "inch"])
+def test_inches_are_a_unit(unit: str, tmp_path: Path) -> None:
+    (tmp_path / "log.csv").write_bytes(text(f"t,x [{unit}],force", T, X / 0.0254, F))
+    assert load(tmp_path / "log.csv").x == pytest.approx(X, abs=1e-7)
 
 
 def test_a_folder_is_no_recording(tmp_path: Path) -> None:

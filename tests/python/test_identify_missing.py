@@ -70,7 +70,9 @@ def test_a_time_that_is_not_found_names_the_option(tmp_path: Path) -> None:
 
 def test_a_file_of_a_time_and_a_force_has_no_column_to_propose(tmp_path: Path) -> None:
     (tmp_path / "log.csv").write_bytes(text("t,force", T, F))
-    with pytest.raises(ValueError, match="found no position among t, force, and no other column"):
+    with pytest.raises(
+        ValueError, match="found no position among t, force; the file needs a column of it"
+    ):
         load(tmp_path / "log.csv")
 
 

@@ -264,7 +264,7 @@ def test_units_are_read_or_guessed_and_said(
     ("text", "message"),
     [
         ("", "the file is empty"),
-        ("x,y\n", "has a heading and no rows"),
+        ("x,y\n", "has no rows below its heading"),
         ("t,a\n1,2\n", "no columns x and y among t, a: name them with columns=[...], or --column"),
         ("x,y\n1,2\n3,oops\n", "column y, row 2: 'oops' is no number"),
         ("x,y\n1,2\n3,nan\n", "column y, row 2: nan is not finite"),

@@ -10,7 +10,15 @@ from typing import Any
 #: What one of a unit is in SI, by quantity.
 FACTORS: dict[str, dict[str, float]] = {
     "time": {"s": 1.0, "ms": 1e-3, "us": 1e-6, "µs": 1e-6, "ns": 1e-9, "min": 60.0},
-    "length": {"m": 1.0, "mm": 1e-3, "cm": 1e-2, "um": 1e-6, "µm": 1e-6, "in": 0.0254},
+    "length": {
+        "m": 1.0,
+        "mm": 1e-3,
+        "cm": 1e-2,
+        "um": 1e-6,
+        "µm": 1e-6,
+        "in": 0.0254,
+        "inch": 0.0254,
+    },
     "force": {
         "N": 1.0,
         "mN": 1e-3,

@@ -39,6 +39,24 @@ def read_text(path: str | Path) -> str:
     )
 
 
+def with_rows(lines: list[str]) -> list[str]:
+    """Return the lines of a CSV file, if they are a heading and rows.
+
+    Raises
+    ------
+    ValueError
+        For fewer than two.
+    """
+    if len(lines) < 2:
+        what = (
+            "has no rows below its heading"
+            if lines
+            else "is empty: needs a heading and rows below it"
+        )
+        raise ValueError(f"the file {what}")
+    return lines
+
+
 def delimited(lines: list[str]) -> tuple[str, list[str]]:
     """Return the mark between the columns of a CSV file, and its lines, the heading first.
 

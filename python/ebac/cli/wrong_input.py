@@ -16,7 +16,17 @@ VARIED = {
     r"--hand(-\w+)?": ("--population", "--family"),
     r"--wall-\w+": ("--condition", "--most-stiffness"),
     r"--delay": ("--condition",),
-    r"--device-(mass|damping|inertia|radius|count|motor|encoder)": ("--scenario",),
+}
+
+#: Facts of a device that no option gives, and their keys in a file.
+IN_FILES = {
+    "--device-mass": "handle_mass in [device.mechanics]",
+    "--device-damping": "damping in [device.mechanics]",
+    "--device-inertia": "rotor_inertia in [device.motor]",
+    "--device-radius": "radius in [device.kinematics]",
+    "--device-count": "counts_per_turn in [device.encoder]",
+    "--device-motor": "[device.motor]",
+    "--device-encoder": "[device.encoder]",
 }
 
 #: Options by words that people use for them, which look like others.
@@ -131,6 +141,11 @@ def _unknown_option(wrong: str, command: Any) -> str:
         other = next((name for name in others if name in known), None)
         if other is not None and re.fullmatch(pattern, wrong):
             return f"{wrong}: there is no such option here, {other} sets it; see --help"
+    if wrong in IN_FILES and "--scenario" in known:
+        return (
+            f"{wrong}: there is no such option here, {IN_FILES[wrong]} of the file of --scenario sets it; "
+            "`ebac presets reference > FILE` writes one"
+        )
     if wrong in OF_OTHERS:
         have = _or([f"`ebac {name}`" for name in OF_OTHERS[wrong]], "and")
         return f"{wrong}: there is no such option here; {have} have it"

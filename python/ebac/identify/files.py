@@ -13,7 +13,7 @@ from zipfile import BadZipFile
 import numpy as np
 from numpy.typing import NDArray
 
-from ebac._util.text_file import delimited, read_text
+from ebac._util.text_file import delimited, read_text, with_rows
 
 Columns: TypeAlias = dict[str, NDArray[np.float64]]
 
@@ -37,8 +37,11 @@ def read_columns(path: Path) -> Table:
     """
     readers = {".csv": _csv, ".txt": _csv, ".tsv": _csv, ".mat": _mat, ".npz": _npz}
     if path.suffix.lower() not in readers:
+        turn = ""
+        if path.suffix.lower() in (".h5", ".parquet"):
+            turn = f"; ebac log export {path.name} {path.stem}.csv makes one that is read"
         raise ValueError(
-            f"{path.name}: unknown ending {path.suffix!r}; known are .mcap, {', '.join(readers)}"
+            f"{path.name}: unknown ending {path.suffix!r}; known are .mcap, {', '.join(readers)}{turn}"
         )
     found = readers[path.suffix.lower()](path)
     if not (found.columns or found.mixed):
@@ -52,10 +55,8 @@ def _csv(path: Path) -> Table:
     except ValueError as error:
         raise ValueError(f"{path.name}: {error}") from None
     lines = [line for line in lines if line.strip() and not line.startswith(("#", "%"))]
-    if len(lines) < 2:
-        raise ValueError(f"{path.name}: lines = {len(lines)}: needs a heading and rows below it")
     try:
-        mark, lines = delimited(lines)
+        mark, lines = delimited(with_rows(lines))
     except ValueError as error:
         raise ValueError(f"{path.name}: {error}") from None
     names = [name.strip() for name in next(csv.reader(lines[:1], delimiter=mark))]

@@ -172,7 +172,8 @@ def _known(
     value = of_log if given is None else number(f"force_scale: {name}", given)
     if value is None:
         raise ValueError(
-            f"{r.name}: has no scenario with the {name} of the device; give it, --{name} or {name}=... [{unit}]"
+            f"{r.name}: has no scenario with mass and damping of the device; give both, --mass KG --damping N_S_PER_M "
+            "or mass=..., damping=... [kg, N s/m]"
         )
     low, high = within
     if not low <= value <= high:

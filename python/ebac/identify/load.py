@@ -149,9 +149,14 @@ def _in_steps(r: Recording, count: float) -> None:
     """Refuse a count [m or rad] that is none of a position."""
     read = r.x if r.known is None else r.x[r.known]
     steps = np.diff(read) / count
+    way, unit = float(np.ptp(read)), r.units[0]
+    if way < count:
+        raise ValueError(
+            f"{r.name}: count = {count:g} {unit}: x spans {way:.4g} {unit} in all, less than one count; give the step "
+            "of the encoder, or leave it out"
+        )
     if (np.abs(steps - np.round(steps)) < 0.1).mean() < 0.95:
         shown = count_of(read)
-        unit = r.units[0]
         what = f"it shows steps of {shown:.6g} {unit}" if shown else "it shows none"
         raise ValueError(
             f"{r.name}: count = {count:g} {unit}: x does not move in such steps; {what}"
@@ -253,7 +258,7 @@ def _recording(
         signals |= where_met(signals["x"], ours["est.x_act"], ours["est.weight"])
     even: dict[str, Any] = dict(_evenly(name, without_held(signals, remarks), remarks))
     guessed = any(text.startswith("x: no unit") for text in remarks)
-    plausible(name, even, rotary=rotary, guessed=guessed)
+    plausible(name, even, rotary=rotary, guessed=guessed, rate=rate)
     found = count_of(signals["x"])  # of the readings, before anything is put between them
     step = f"{1e3 * found:.4g} {'mrad' if rotary else 'mm'}"
     remarks.append(f"encoder step of {step} found in x" if found else "x shows no encoder step")

@@ -24,7 +24,7 @@ def not_found(signals: Sequence[str], headings: Sequence[str], left: Sequence[st
     All that a log lacks is asked for at once; the force of the hand only beside another, since not all need it.
     """
     words = " and ".join(f"no {WORDS[signal]}" for signal in signals)
-    ask = f"; {which_is_it(signals, left)}" if left else ", and no other column"
+    ask = f"; {which_is_it(signals, left)}" if left else "; the file needs a column of it"
     return f"found {words} among {listed(list(headings))}{ask}"
 
 

@@ -60,7 +60,9 @@ def without_place(
     return out
 
 
-def plausible(name: str, signals: Columns, *, rotary: bool, guessed: bool) -> None:
+def plausible(
+    name: str, signals: Columns, *, rotary: bool, guessed: bool, rate: float | None = None
+) -> None:
     """Refuse numbers in a wrong unit, as far as that shows, and a force that never changes.
 
     Parameters
@@ -73,10 +75,17 @@ def plausible(name: str, signals: Columns, *, rotary: bool, guessed: bool) -> No
         Whether they are in rad and N m.
     guessed : bool
         Whether the unit of x was not given.
+    rate : float, optional
+        Rows per second [Hz], where the times were made of them.
     """
     long, strong = ("rad", "N m") if rotary else ("m", "N")
     dt, reach = float(np.median(np.diff(signals["t"]))), float(np.ptp(signals["x"]))
     if len(signals["t"]) >= LEAST_ROWS and reach > 0 and dt > SLOWEST:
+        if rate is not None:
+            raise ValueError(
+                f"{name}: rate = {rate:g} Hz: rows are then {dt:.4g} s apart, {SLOWEST:g} s at most resolve a hand; "
+                "give the rows per second of the log, or leave it out where the log has times"
+            )
         raise ValueError(
             f"{name}: rows are {dt:.4g} s apart, {SLOWEST:g} s at most resolve a hand: is the unit of t right? "
             "Give the unit: units={'t': 'ms'} or --unit t=ms"

@@ -187,6 +187,11 @@ class ArmResult:
             remedy = "; record one with more excitation, or fix some of the values"
             if self.flip:
                 remedy = f". {self.misses[0]}"
+            elif self.problem.targets[0].path is None and not self.problem.targets[0].switches:
+                remedy = (
+                    "; it was taken as held in one place: if it went to another, give the times, Target.steps(...) or "
+                    "--switch"
+                ) + remedy.replace("; record", ". Else record")
             raise ValueError(
                 f"{', '.join(lost)}: not determined by this log, so there is no hand to simulate{remedy}"
             )

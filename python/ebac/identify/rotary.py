@@ -190,4 +190,4 @@ def _refuse_without_use(file: str, quantities: set[str | None], how: Conversion)
         ("counts_per_turn", how.counts_per_turn, angles, "angle, and no counts"),
     ):
         if value is not None and not used:
-            raise ValueError(f"{file}: {option} = {value:g}: the file has no {why}")
+            raise ValueError(f"{file}: {option} = {value:g}: the file has no {why}; leave it out")
