@@ -206,6 +206,15 @@ def test_logs_of_one_name_keep_their_own_tests_and_remarks(tmp_path: Path) -> No
     assert f"{copy}: holds the same rows as {paths[0]}" in " ".join(again.output.split())
 
 
+def test_a_hand_that_does_not_predict_a_log_that_was_held_out_ends_in_1(tmp_path: Path) -> None:
+    for name in ("arm", "press"):
+        ebac.datasets.write(name, tmp_path)
+    words = ["identify", "arm", str(tmp_path / "arm.csv"), "--hold-out"]
+    done = CliRunner().invoke(app, [*words, str(tmp_path / "press.csv")])
+    assert done.exit_code == 1
+    assert "press.csv: held out, and this hand explains less" in " ".join(done.output.split())
+
+
 @pytest.fixture(scope="module")
 def arm() -> identify.ArmResult:
     path = ebac.Tapping(target=0.02, rest=-0.01, frequency=1.0)

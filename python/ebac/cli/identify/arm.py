@@ -68,7 +68,7 @@ def arm(
     * `ebac demo tapping`, then `ebac identify arm tapping.mcap --out report`
 
     Exit code 1 when the log determines nothing of the hand, or when the result is not a plausible one, because it
-    explains less of the motion than no hand would.
+    explains less of the motion than no hand would, of the log or of one that was held out.
     """
     from ebac.identify import fit_arm
 
@@ -110,6 +110,13 @@ def arm(
             output.list_files(to.out, files)
     if result.impossible:
         output.fail(f"This is no hand: {'; '.join(result.impossible)}.", code=output.FAILED)
+    if lost := [p.recording for p in predictions if p.held_out and p.vaf < 0]:
+        output.fail(
+            f"{', '.join(lost)}: held out, and this hand explains less of the motion than none would. Is it the same "
+            "arm, and the target the right one? --switch, --tapping and --held apply to every log, a column target to "
+            "its own.",
+            code=output.FAILED,
+        )
     if result.nothing_determined:
         raise typer.Exit(output.FAILED)
 
