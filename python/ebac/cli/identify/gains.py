@@ -230,9 +230,9 @@ def _notes(result: GainsResult, file: Path | None) -> list[str]:
         "Relative to the default gains, geometric mean over the presses: "
         + ", ".join(f"{name} {value:.3f}" for name, value in result.chosen.ratios.items())
         + ".",
-        "cost: all three in one number, below 1 is better than the default gains; noise: changes of the "
-        "command from tick to tick over the last 30 %, RMS over the square root of two, mean of the presses; noise gain: RMS of the command for 1 N RMS of white noise of the reading, of K_p and K_d "
-        "alone.",
+        "cost: all three in one number, below 1 is better than the default gains; noise: changes of the command from "
+        "tick to tick over the last 30 %, RMS over the square root of two, mean of the presses; noise gain: RMS of the "
+        "command for 1 N RMS of white noise of the reading, of K_p and K_d alone.",
         "Constraints: overshoot "
         f"{1e3 * (limits.overshoot or 0):.2f} mm, force {limits.force:.1f} N, current {limits.current:.2f} A, "
         f"noise gain {limits.noise_gain:g}, energy {1e3 * limits.energy:g} mJ.",
