@@ -226,7 +226,11 @@ def test_a_study_pairs_physicians_and_does_not_depend_on_threads() -> None:
     assert 0 <= effect.power <= 1
     figure = plot_gastroscopy_study(two)
     assert figure.get_suptitle().startswith("3 simulated physicians, each with and without force")
-    assert [len(line.get_xdata()) for line in figure.axes[0].lines] == [3, 3]
+    drawn = [line for line in figure.axes[0].lines if line.get_linestyle() == "None"]
+    assert [len(line.get_xdata()) for line in drawn if len(line.get_xdata())] == [3, 3]
+    legend = figure.axes[0].get_legend()
+    words = [text.get_text() for text in legend.get_texts()]
+    assert words == ["with feedback, direct", "without", f"limit, {two.force_limit_N:g} N"]
 
 
 @pytest.mark.parametrize(

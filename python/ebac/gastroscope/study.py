@@ -86,11 +86,14 @@ class GastroscopyStudy:
         Of feedback on the largest tissue force.
     runs : dict
         Findings of each run, arrays of shape (physicians,), by (law, delay, feedback) and name.
+    force_limit_N : float
+        Force on the tissue that no physician should exceed [N].
     """
 
     rows: tuple[StudyRow, ...]
     effects: tuple[Effect, ...]
     runs: dict[tuple[str, float, bool], dict[str, NDArray[np.float64]]]
+    force_limit_N: float
 
     def table(self) -> list[dict[str, Any]]:
         """Return the rows as dictionaries, units in the keys."""
@@ -205,7 +208,9 @@ def gastroscopy_study(
         for delay in delays
     ]
     rows = [_row(key, found, limit) for key, found in runs.items()]
-    return GastroscopyStudy(rows=tuple(rows), effects=tuple(effects), runs=runs)
+    return GastroscopyStudy(
+        rows=tuple(rows), effects=tuple(effects), runs=runs, force_limit_N=limit
+    )
 
 
 def _run(

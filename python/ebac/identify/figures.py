@@ -47,7 +47,7 @@ def plot_arm(result: ArmResult, recording: int = 0) -> Picture:
     line(force, r.t, r.force, color="#0072b2", lw=0.8)
     dress(force, "force [N]")
     line(left, r.t, 1e3 * (r.x - model), color="#d55e00", lw=0.8)
-    dress(left, "error [mm]")
+    dress(left, "log less\nhand [mm]")
     left.set_xlabel("time [s]")
     _correlations(auto, result, r.name)
     _response(size, follows, result, recording)
@@ -74,33 +74,61 @@ def _response(size: Axes, follows: Axes, result: ArmResult, recording: int) -> N
             ax.text(0.5, 0.5, str(error), ha="center", transform=ax.transAxes, fontsize="small")
         return
     f = z.frequency
-    size.errorbar(
-        f,
-        np.abs(z.stiffness),
-        yerr=z.deviation(),
-        fmt=".",
-        color="0.45",
-        ecolor="0.8",
-        label="H1, one deviation",
-    )
+    sure = z.coherence >= z.significant
+    for which, shade, word in (
+        (sure, "0.3", "of the log (H1), one standard deviation"),
+        (~sure, "0.8", "where the coherence may be chance"),
+    ):
+        if which.any():
+            size.errorbar(
+                f[which],
+                np.abs(z.stiffness[which]),
+                yerr=z.deviation()[which],
+                fmt=".",
+                color=shade,
+                ecolor="0.8",
+                label=word,
+            )
     if z.by_target is not None:
-        size.plot(f, np.abs(z.by_target), "+", color="#0072b2", ms=5, label="target as instrument")
+        size.plot(
+            f,
+            np.abs(z.by_target),
+            "+",
+            color="#0072b2",
+            ms=5,
+            label="of the log, the target as instrument",
+        )
     size.plot(
         f, np.abs(z.model(mass, damping, stiffness)), color="#009e73", label="eq. (4) as fitted"
     )
     size.set(xscale="log", yscale="log")
+    _plain_numbers(size)
     model = np.abs(z.model(mass, damping, stiffness))
     size.set_ylim(0.2 * model.min(), 5 * model.max())
     dress(size, "|Z| = |K0 + B0 s + M0 s²|\n[N/m]")
     legend(size)
     follows.plot(f, z.coherence, color="0.3", lw=1)
     follows.axhline(
-        z.significant, color="#d55e00", lw=0.8, ls="--", label="by chance, 5 % of lines"
+        z.significant,
+        color="#d55e00",
+        lw=0.8,
+        ls="--",
+        label="above by chance in 5 % of the frequencies",
     )
     follows.set(xscale="log", ylim=(0, 1.05))
+    _plain_numbers(follows)
     follows.set_xlabel("frequency [Hz]")
     dress(follows, "coherence")
     legend(follows)
+
+
+def _plain_numbers(ax: Axes) -> None:
+    """Label a logarithmic axis at 1, 2 and 5 of each decade."""
+    from matplotlib.ticker import LogLocator, NullFormatter
+
+    ax.xaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
+    ax.xaxis.set_major_formatter("{x:g}")
+    ax.xaxis.set_minor_formatter(NullFormatter())
 
 
 def plot_device(result: DeviceResult) -> Picture:
@@ -149,11 +177,16 @@ def _correlations(ax: Axes, result: ArmResult, name: str) -> None:
             0.5, 0.5, "too few readings to test the errors", ha="center", transform=ax.transAxes
         )
         return
-    ax.axhspan(-tests.band, tests.band, color="0.9", label="95 % of white errors")
-    ax.plot(np.arange(1, len(tests.auto) + 1), tests.auto, color="#0072b2", label="with themselves")
+    ax.axhspan(-tests.band, tests.band, color="0.9", label="95 % of white noise")
+    ax.plot(
+        np.arange(1, len(tests.auto) + 1),
+        tests.auto,
+        color="#0072b2",
+        label="of the difference with itself",
+    )
     ax.plot(np.arange(len(tests.cross)), tests.cross, color="#d55e00", label="with the force")
     ax.set_xlabel("lag [readings]")
-    dress(ax, "correlation of\nthe errors")
+    dress(ax, "correlation")
     legend(ax)
 
 

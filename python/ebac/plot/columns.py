@@ -61,8 +61,13 @@ def plot_columns(trace: Trace, names: Sequence[str]) -> Picture:
             shown = "kN/m"
             _dots(ax, trace, columns)
         else:
-            for i, (label, values) in enumerate(_lines(trace, columns)):
-                _line(ax, trace["t"], factor * values, i, label)
+            lines = list(_lines(trace, columns))
+            ink = [float(np.nansum(np.abs(np.diff(values)))) for _, values in lines]
+            for i, (label, values) in enumerate(lines):
+                above = 2 + sum(other > ink[i] for other in ink) / len(
+                    ink
+                )  # the longest line below
+                _line(ax, trace["t"], factor * values, i, label, above)
         dress(
             ax, f"{formatting.QUANTITY_OF.get(unit, '')} [{shown}]".strip() if unit != "1" else ""
         )
@@ -77,11 +82,11 @@ def plot_columns(trace: Trace, names: Sequence[str]) -> Picture:
     return figure
 
 
-def _line(ax: Axes, t: Values, values: Values, i: int, label: str) -> None:
+def _line(ax: Axes, t: Values, values: Values, i: int, label: str, above: float) -> None:
     """Draw a column as a line, and as dots what stands between two gaps."""
     style = "-" if i < len(_SHADES) else "--"
     shade = _SHADES[i % len(_SHADES)]
-    line(ax, t, values, color=shade, ls=style, lw=1.0, label=label)
+    line(ax, t, values, color=shade, ls=style, lw=1.0, label=label, zorder=above)
     dots = alone(values)
     if np.isfinite(dots).any():
         ax.plot(t, dots, ".", ms=2.5, color=shade)

@@ -79,15 +79,16 @@ def _outside(ax: Any, run: Gastroscopy) -> None:
     targets = np.array([lumen.target(p.place, p.angle) for p in run.procedure.polyps()])
     if len(targets):
         ax.scatter(*(1e2 * targets.T), color=TARGET, s=35, label="target", depthshade=False)
-    ax.set_box_aspect(np.ptp(rings.reshape(-1, 3), axis=0))
+    ax.set_box_aspect(np.ptp(rings.reshape(-1, 3), axis=0), zoom=1.25)
     for axis in (ax.xaxis, ax.yaxis):
         axis.set_major_locator(MaxNLocator(3))
-    ax.set_xlabel("front [cm]")
-    ax.set_ylabel("left [cm]")
-    ax.set_zlabel("head [cm]", labelpad=12)
+    ax.set_xlabel("front [cm]", labelpad=12)
+    ax.set_ylabel("left [cm]", labelpad=8)
+    ax.set_zlabel("head [cm]", labelpad=16)
+    ax.tick_params(axis="z", pad=7)
     ax.view_init(elev=12, azim=25)
-    ax.legend(loc="upper left", fontsize="small")
-    ax.set_title("from outside", fontsize="medium")
+    ax.legend(loc="upper left", bbox_to_anchor=(0.0, 1.26), fontsize="small")
+    ax.set_title("from outside", fontsize="medium", y=1.18)
 
 
 def _camera(ax: Axes, run: Gastroscopy, row: int) -> None:
@@ -159,21 +160,7 @@ def plot_gastroscopy_study(found: GastroscopyStudy) -> Picture:
     """
     figure = new_figure(11, 4.5)
     left, right = figure.subplots(1, 2, width_ratios=(1.7, 1))
-    keys = list(found.runs)
-    forces = [found.runs[key]["most_section"] for key in keys]
-    count = len(forces[0])
-    if count < FEW:
-        for place, values in enumerate(forces, 1):
-            left.plot(np.full(count, place), values, "k.")
-    else:
-        left.boxplot(forces, widths=0.6, sym=".")
-    left.set_xticks(
-        range(1, len(keys) + 1),
-        [f"{law}\n{1e3 * delay:g} ms\n{'with' if fed else 'without'}" for law, delay, fed in keys],
-        fontsize="x-small",
-    )
-    dress(left, "largest force on tissue [N]")
-    left.set_xlim(0.5, len(keys) + 0.5)
+    _largest(left, found)
     for k, effect in enumerate(found.effects):
         own = colour(effect.law)
         right.plot([effect.low_N, effect.high_N], [k, k], color=own, lw=2)
@@ -184,9 +171,44 @@ def plot_gastroscopy_study(found: GastroscopyStudy) -> Picture:
     right.invert_yaxis()
     dress(right, "")
     right.margins(x=0.08)
-    right.set_xlabel("with feedback less without [N], mean and 95 %")
+    right.set_xlabel("change by feedback [N], mean and 95 % interval")
+    count = len(next(iter(found.runs.values()))["most_section"])
     figure.suptitle(
         f"{count} simulated physicians, each with and without force feedback, by law and delay of the link",
         fontsize="medium",
     )
     return figure
+
+
+def _largest(ax: Axes, found: GastroscopyStudy) -> None:
+    """Draw the largest forces beside each other, without feedback in grey and with it in the colour of the law."""
+    pairs = list(dict.fromkeys((law, delay) for law, delay, _ in found.runs))
+    for place, (law, delay) in enumerate(pairs):
+        for fed, aside in ((False, -0.18), (True, 0.18)):
+            values = found.runs[law, delay, fed]["most_section"]
+            own, at = colour(law) if fed else "0.6", place + aside
+            if len(values) < FEW:
+                ax.plot(np.full(len(values), at), values, ".", ms=8, color=own)
+                continue
+            box = ax.boxplot(
+                values,
+                positions=[at],
+                widths=0.3,
+                sym=".",
+                patch_artist=True,
+                boxprops={"facecolor": own, "alpha": 0.5},
+                medianprops={"color": "black", "lw": 1.5},
+                flierprops={"markerfacecolor": own, "markeredgecolor": own},
+            )
+            box["boxes"][0].set_edgecolor(own)
+    for law in dict.fromkeys(law for law, _ in pairs):
+        ax.plot([], [], "s", color=colour(law), label=f"with feedback, {law}")
+    ax.plot([], [], "s", color="0.6", label="without")
+    limit = found.force_limit_N
+    ax.axhline(limit, color=LIMIT, lw=1, ls="--", label=f"limit, {limit:g} N")
+    ax.set_xticks(range(len(pairs)), [f"{law}\n{1e3 * delay:g} ms" for law, delay in pairs])
+    ax.set_xlabel("law and delay of the link")
+    dress(ax, "largest force on tissue [N]")
+    ax.set_xlim(-0.5, len(pairs) - 0.5)
+    ax.set_ylim(bottom=0)
+    legend(ax)
