@@ -123,20 +123,16 @@ def _energy(ax: Axes, trace: Trace, found: Worst) -> None:
     t = trace["t"]
     true = 1e3 * trace["true.energy"].reshape(len(trace), -1).sum(axis=1)
     line(ax, t, true, color=colour(found.law), lw=1.6, label="port energy")
-    largest = max(2.0 * -float(true.min()), 1.0)
+    deepest = min(float(true.min()), -1e3 * (found.reserve or 0.0), -0.5)
+    most = float(true.max())
     for name in ("law.energy", "law.account"):
         if name in trace:
-            line(
-                ax,
-                t,
-                1e3 * trace.axis(name, 0),
-                color="black",
-                lw=0.8,
-                label="account of the law",
-            )
+            account = 1e3 * trace.axis(name, 0)
+            line(ax, t, account, color="black", lw=0.8, label="account of the law")
+            most = max(most, float(account.max()))
     if found.reserve is not None:
         ax.axhline(-1e3 * found.reserve, color="#d55e00", lw=1, ls="--", label="reserve")
-        largest = max(largest, 2e3 * found.reserve)
     ax.axhline(0, color="0.35", lw=1)
-    ax.set_ylim(1.2 * min(float(true.min()), -1e3 * (found.reserve or 0.0)), largest)
+    # what is drawn is judged: what else flows in or is held may go far beyond
+    ax.set_ylim(1.2 * deepest, -0.15 * deepest + min(most, -2 * deepest))
     dress(ax, "energy [mJ]")
