@@ -80,6 +80,7 @@ def test_letters_that_look_like_a_torque() -> None:
         ("X [MM]", ("x", "m", 1e-3)),
         ("x", ("x", "m", 1.0)),
         ("time (ms)", ("t", "s", 1e-3)),
+        ("Zeit [ms]", ("t", "s", 1e-3)),
         ("f_meas.N", ("f_meas", "N", 1.0)),
         ("true.x_0 [m]", ("true.x_0", "m", 1.0)),
         ("law.f_d", ("law.f_d", "1", 1.0)),

@@ -61,7 +61,7 @@ _TORQUE = r"(?:[muk\u00b5]?N[ *._\u00b7\u22c5\u2219\u00d7-]*|[muk\u00b5]?n)(?:[c
 
 #: Names of signals without unit, by quantity; the first that fits gives the unit of a heading without one.
 _SIGNALS = {
-    "time": re.compile(r"t|time"),
+    "time": re.compile(r"t|time|timestamp|zeit"),
     "length": re.compile(r"(true\.)?[xyz](_\d)?|pos|position|target"),
     "force": re.compile(r"(true\.)?f(_[a-z]+)*(_\d)?|force(_[a-z\d]+)?|motor|desired"),
     "angle": re.compile(r"(theta|phi|angle|q|x|pos|position|target)(_\d)?"),
@@ -108,7 +108,7 @@ def signal_heading(heading: str) -> tuple[str, str, float]:
     for quantity, known in _SIGNALS.items():
         stem, own = (name, unit) if unit else split_heading(heading, FACTORS[quantity])
         if known.fullmatch(stem.lower()):
-            name = "t" if stem.lower() == "time" else stem.lower()
+            name = "t" if quantity == "time" else stem.lower()
             unit = own or next(iter(FACTORS[quantity]))
     for units in FACTORS.values():
         if unit in units:
