@@ -487,7 +487,9 @@ def test_no_files_writes_none(words: str, tmp_path: Path) -> None:
 
 def test_a_study_without_files_names_none_as_written(tmp_path: Path) -> None:
     words = ("study", "--law", "direct", "--seconds", "0.6")
-    assert "Without --no-files failures.csv names all 60." in refusal(*words, "--no-files", code=0)
+    assert "Without --no-files failures.csv names all 60 runs of them." in refusal(
+        *words, "--no-files", code=0
+    )
     assert "Without" not in refusal(*words, code=0)
 
 

@@ -351,7 +351,7 @@ def test_one_failure_of_each_law_is_shown_and_its_trace_kept(hands_csv: Path) ->
     assert {line.split(":")[0] for line in told} == {", ".join(kind) for kind in kinds}
     of_tca = [row for row in rows if (row["law"], row["condition"]) == ("tca-damped", "d1K10")]
     assert f"tca-damped, d1K10: {len(of_tca)} hands not good, the first #1 (" in shown
-    assert f"failures.csv names all {len(rows)}." in shown
+    assert f"failures.csv names all {len(rows)} runs of them." in shown
     kept = [file.name for file in (hands_csv.parent / "out").glob("failure-*.npz")]
     assert len(kept) == len(kinds)
 

@@ -103,7 +103,12 @@ def show(study: Study, *, files: bool) -> None:
         last = row.condition
     output.show(grid)
     _show_failures(study, files=files)
-    output.say("Simulated, not measured. settled, stiffness on impact: medians.", style="bold")
+    output.say(
+        "ideal wall good: hands that would be good at an ideal wall; power at rest: the lowest mean rate of the port "
+        "energy while a hand rests for 20 s and more, below 0 it is drawn; settled, stiffness on impact: medians. "
+        "`ebac study --help` defines the rest."
+    )
+    output.say("Simulated, not measured.", style="bold")
 
 
 def _count(count: int | None, row: StudyRow) -> str:
@@ -133,7 +138,7 @@ def _show_failures(study: Study, *, files: bool) -> None:
             f"{failure.law}, {failure.condition}: {output.plural(count, 'hand')} not good, {hand}: {failure.why}"
         )
     if len(failures) > min(SHOWN, len(counted)):
-        all_of_them = f"names all {len(failures)}."
+        all_of_them = f"names all {len(failures)} runs of them."
         output.say(
             f"failures.csv {all_of_them}"
             if files
