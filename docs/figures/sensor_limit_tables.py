@@ -1,4 +1,4 @@
-"""What errors of force sensor and motor cost `ebac`: a wrong scale, coarse steps, ripple, cogging, offset, noise."""
+"""What errors of force sensor and motor cost `ebac`: noise, bias, delay, scale, steps; ripple, cogging, offset."""
 
 from __future__ import annotations
 
@@ -6,6 +6,8 @@ from collections.abc import Sequence
 from functools import partial
 from typing import Any
 
+import numpy as np
+from held_tables import Held
 from printed import NOISY, Printed, Row, of_two, table
 
 import ebac
@@ -20,6 +22,91 @@ def scenario(*, sensor: dict[str, Any] | None = None, **parts: Any) -> ebac.Scen
     """Return the reference scenario with 0.03 N of noise, an error of its sensor, and other parts of its device."""
     made = NOISY.device.sensor.replace(**(sensor or {}))
     return ebac.Scenario(device=ebac.Device(sensor=made, **parts))
+
+
+# --- its noise ---
+
+#: Noises of the sensor [N], and how long five hands press on four walls with each of them [s].
+NOISES, HELD_FOR = (0.03, 0.06, 0.1, 0.15, 0.2, 0.5), 300.0
+PRESSING = [
+    Held(mass, damping, stiffness, (wall, delay))
+    for mass, damping, stiffness in (
+        (0.05, 20, 100),
+        (1, 20, 100),
+        (0.754, 36, 134),
+        (0.15, 6, 300),
+        (0.3, 6, 1000),
+    )
+    for wall in (1e4, 2e4)
+    for delay in (1, 2)
+]
+
+
+def noise(printed: Printed) -> str:
+    """Hands that press for 300 s: how many keep their wall and the observer; what the worst hand draws."""
+    rows = []
+    for size in NOISES:
+        found = printed.kept(f"noise-{size:g}", partial(_pressed, size))
+        fell = [row["fell_s"] for row in found if row["fell_s"] is not None]
+        worst = printed.rows(f"worst --device-noise {size:g} -c d2K20 --seed 1")
+        rows.append(
+            [
+                f"{size:g} N",
+                str(sum(row["kept"] for row in found)),
+                str(sum(row["on_encoder"] for row in found)),
+                f"{min(fell):.1f} s" if fell else "none",
+                f"{1e3 * max(row['energy_drawn_J'] for row in worst):.1f} mJ",
+            ]
+        )
+    heads = [
+        "noise of the sensor",
+        f"exact and still at the end, of {len(PRESSING)}",
+        "on the encoder at the end",
+        "first fallback",
+        "drawn by the worst hand (`ebac worst -c d2K20`)",
+    ]
+    return table(heads, rows)
+
+
+def _pressed(size: float) -> list[Row]:
+    found = []
+    for one in PRESSING:
+        run = one.scenario(seed=1).replace(
+            device=scenario(sensor={"noise": size}).device, seconds=HELD_FOR
+        )
+        trace = ebac.simulate(run, "ebac")
+        fallback = np.flatnonzero(trace.axis("est.fallback"))
+        contact = ebac.contact(trace)
+        found.append(
+            {
+                "kept": bool(contact.exact and contact.still),
+                "on_encoder": bool(trace.axis("est.fallback")[-1]),
+                "fell_s": float(trace["t"][fallback[0]]) if len(fallback) else None,
+            }
+        )
+    return found
+
+
+# --- a bias, and a delay that is not declared ---
+
+#: Biases [N] and delays [s] of a row; runs of each family of the search.
+WRONG, RUNS = ((0.0, 0.0), (0.1, 0.5e-3), (0.2, 1e-3), (0.5, 2e-3)), 1000
+
+
+def bias(printed: Printed) -> str:
+    """What the worst hand draws where the force is biased, or later than the loop knows."""
+    rows = []
+    for offset, late in WRONG:
+        row = []
+        for label, error in (
+            (f"{offset:g} N", {"bias": offset}),
+            (f"{1e3 * late:g} ms", {"delay": late}),
+        ):
+            name = "-".join(f"{kind}-{value:g}" for kind, value in error.items())
+            base = scenario(sensor=error)
+            row += [label, _worst(printed, name, base, ("d1K10",), RUNS, SEEDS)]
+        rows.append(row)
+    return table(["bias", "draws", "delay that is not declared", "draws"], rows)
 
 
 # --- the scale of the force ---

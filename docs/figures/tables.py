@@ -66,6 +66,8 @@ TABLES: dict[str, Callable[[Printed], str]] = {
     "limits-milliseconds": limits.milliseconds,
     "limits-counts": limits.counts,
     "limits-rate": limits.rate,
+    "limits-noise": sensors.noise,
+    "limits-bias": sensors.bias,
     "limits-scale": sensors.scale,
     "limits-steps": sensors.steps,
     "limits-motor": sensors.motor,
