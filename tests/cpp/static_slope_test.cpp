@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace ebac::static_slope_test {
 namespace {
@@ -43,6 +45,59 @@ TEST(StaticSlope, AContactThatEndsHasNone) {
   slope.step(0, -1e-3, 0, 0);
   EXPECT_EQ(slope.damping(), 0);
   EXPECT_EQ(slope.value(), 0);
+}
+
+TEST(StaticSlope, AMotionOfLessThanTheLeastInEachTickShowsItInTime) {
+  StaticSlope slope(kLeast);
+  const double step = kLeast / 10;  // a slow hand, or a fast loop
+  int ticks = 0;
+  for (double x = -2 * step; slope.value() == 0 && ticks < 100; x += step, ++ticks) {
+    slope.step(kStiffness * std::max(x, 0.0), x, step / kTick, 0);
+  }
+  EXPECT_NEAR(slope.value(), kStiffness, 1e-3);
+  EXPECT_LT(ticks, 20);
+}
+
+TEST(StaticSlope, TheSurfaceIsFollowedUntilASlopeIsKnown) {
+  StaticSlope slope(kLeast);
+  const double step = kLeast / 10;
+  for (int i = -2; slope.value() == 0 && i < 100; ++i) {
+    const double surface = i * step, x = 2 * i * step;  // it recedes half as fast as the handle comes
+    slope.step(kStiffness * std::max(x - surface, 0.0), x, 2 * step / kTick, step);
+  }
+  EXPECT_NEAR(slope.value(), kStiffness, 1e-3);
+}
+
+TEST(StaticSlope, TheFirstForceShowsWhatASpringHasAtLeast) {
+  StaticSlope slope(kLeast);
+  EXPECT_EQ(slope.at_least(), std::numeric_limits<double>::infinity());
+  slope.step(0, -3e-5, 0.05, 0);
+  slope.step(kStiffness * 2e-5, 2e-5, 0.05, 0);
+  EXPECT_NEAR(slope.at_least(), 0.4 * kStiffness, 1e-6);  // it met the surface on the way
+  slope.step(0, -3e-5, -0.05, 0);
+  EXPECT_EQ(slope.at_least(), std::numeric_limits<double>::infinity());
+}
+
+TEST(StaticSlope, AContactThatDidNotBeginFromOutsideShowsNoLeast) {
+  StaticSlope slope(kLeast);
+  slope.step(kStiffness * 1e-3, 1e-3, 0, 0);  // at first, and where nothing is known of the contact
+  EXPECT_EQ(slope.at_least(), std::numeric_limits<double>::infinity());
+  slope.forget();
+  slope.step(kStiffness * 1e-3, 1e-3, 0, 0);
+  EXPECT_EQ(slope.at_least(), std::numeric_limits<double>::infinity());
+}
+
+TEST(StaticSlope, AWorldThatOnlyDampsHasNone) {
+  StaticSlope slope(kLeast);
+  bool changed = false;
+  for (int i = 0; i < 300; ++i) {
+    const double t = i * kTick;
+    changed |= slope.step(kDamping * std::cos(40 * t), 0.025 * std::sin(40 * t), std::cos(40 * t), 0);
+  }
+  EXPECT_FALSE(changed);  // or one would divide by it
+  EXPECT_EQ(slope.value(), 0);
+  EXPECT_EQ(slope.at_least(), 0);
+  EXPECT_NEAR(slope.damping(), kDamping, 1);
 }
 
 }  // namespace

@@ -26,7 +26,7 @@ namespace ebac {
 /// ((d + 0.8) T + current_lag). Twice as much loses walls where the observer is told half of the
 /// mass or a wrong lag of the sensor. On a soft world, of slope K, it is at most sqrt(K (M + heaviest
 /// hand)), half of critical for that hand: more would only make it slow. Until a contact has shown its
-/// slope, K is at least the force over the way that the handle can have come in. Where the world has a
+/// slope, K is at least its first force over the way of that tick. Where the world has a
 /// damping B of its own, B and the damper are at most 1.5 B_v together. The world may be shown at its
 /// whole stiffness while moving.
 class ObservedForce {
@@ -58,7 +58,7 @@ class ObservedForce {
     injected_ = 0;
     shown_ = dynamic_.shown(port.f_env, softer(port.f_env, energy));
     const double bears = std::max(kMost * damping_ - slope_.damping(), 0.0);
-    const double damper = std::min(std::min(damping_, enough_for(port)), bears);
+    const double damper = std::min(std::min(damping_, enough()), bears);
     const double damped = half_period_.step(shown_ + damper * port.est.v_act);
     beyond_ = 0;
     if (port.f_env == 0) return 0;
@@ -85,7 +85,7 @@ class ObservedForce {
   void forget() EBAC_RT {
     slope_.forget();
     dynamic_.forget();
-    way_in_ = beyond_ = 0;
+    beyond_ = 0;
     half_period_ = HalfPeriod(show_.half_period);
   }
 
@@ -123,11 +123,9 @@ class ObservedForce {
     if (slope_.step(port.f_env, port.est.x_act, port.est.v_act, surface)) know_slope();
   }
   /// Damping that is enough for the heaviest hand on this world [N s/m].
-  double enough_for(const Port& port) EBAC_RT {
+  double enough() const EBAC_RT {
     if (slope_.value() > 0) return enough_;
-    way_in_ = port.f_env == 0 ? 0.0 : way_in_ + std::abs(port.est.v_act - port.world_v) * port.dt;
-    if (way_in_ == 0) return enough_;
-    return std::min(enough_, std::sqrt(std::abs(port.f_env) / way_in_ * heaviest_));
+    return std::min(enough_, std::sqrt(slope_.at_least() * heaviest_));
   }
   void know_slope() EBAC_RT {
     per_slope_ = 1 / slope_.value();
@@ -160,7 +158,6 @@ class ObservedForce {
   StaticSlope slope_;
   double per_slope_ = 0;                                     // m/N
   double enough_ = std::numeric_limits<double>::infinity();  // N s/m, on the last world
-  double way_in_ = 0;                                        // m, before a slope is known
   double shown_ = 0;                                         // N
   double injected_ = 0;                                      // N
   double beyond_ = 0;  // N, of the last command, what the world did not ask for
