@@ -21,18 +21,21 @@ LIMITED = 0.9
 
 @dataclass(frozen=True)
 class Held:
-    """A hand: mass [kg], damping [N s/m], stiffness [N/m]; its wall [N/m] and delay [samples]; the noise [N]."""
+    """A hand: mass [kg], damping [N s/m], stiffness [N/m], target [m]; its wall [N/m], delay [samples], noise [N]."""
 
     mass: float
     damping: float
     stiffness: float
     wall: tuple[float, int] = (1e4, 1)
     noise: float = 0.03
+    target: float = TARGET
 
     @property
     def label(self) -> str:
         """What the table calls the hand."""
         hand = f"{self.mass:g} kg, {self.damping:g} N s/m, {self.stiffness:g} N/m"
+        if self.target != TARGET:
+            hand += f", presses with {self.stiffness * (self.target - SURFACE):.2g} N"
         return hand if self.noise else f"{hand}; no noise"
 
     @property
@@ -46,7 +49,8 @@ class Held:
         """What its numbers are kept under."""
         stiffness, delay = self.wall
         parts = (self.mass, self.damping, self.stiffness, stiffness, delay, self.noise)
-        return f"held-{'-'.join(f'{part:g}' for part in parts)}"
+        gently = "" if self.target == TARGET else f"-{self.target:g}"
+        return f"held-{'-'.join(f'{part:g}' for part in parts)}{gently}"
 
     def scenario(self, seed: int) -> ebac.Scenario:
         """Return the run of an hour."""
@@ -57,7 +61,7 @@ class Held:
                 mass=self.mass,
                 damping=self.damping,
                 stiffness=self.stiffness,
-                path=[ebac.MinimumJerk(target=TARGET, duration=3.0)],
+                path=[ebac.MinimumJerk(target=self.target, duration=3.0)],
             ),
             environment=ebac.Wall(stiffness=stiffness, position=SURFACE),
             timing=ebac.Timing(delay=delay),
@@ -77,6 +81,8 @@ DRAWING = (
     Held(1, 100, 100),
     Held(3, 70, 100),
     Held(6, 60, 50),
+    Held(10, 40, 50, target=SURFACE + 0.008),
+    Held(10, 50, 100, target=SURFACE + 0.006),
     Held(6.7, 180, 699),
     Held(7.5, 156, 81, (1e4, 2)),
     Held(3, 100, 200, (1e4, 2)),
@@ -154,7 +160,7 @@ def _measure(one: Held, seed: int) -> Row:
     end = int(low[0]) if len(low) else int(HOUR)
     first = int(min(RESTS, end / 2))
     stiffness, _ = one.wall
-    rest = (stiffness * SURFACE + one.stiffness * TARGET) / (stiffness + one.stiffness)
+    rest = (stiffness * SURFACE + one.stiffness * one.target) / (stiffness + one.stiffness)
     return {
         "drawn_J": max(0.0, -float(drawn.min())),
         "power_W": -float(drawn[end * ticks - 1] - drawn[first * ticks]) / (end - first),
