@@ -120,6 +120,19 @@ def test_the_commands_that_have_an_option_of_theirs_are_named() -> None:
         assert set(named) == have
 
 
+@pytest.mark.parametrize(
+    ("words", "says"),
+    [
+        (["wall", "--law", "tca", "ebac"], "several laws are given as --law tca,ebac"),
+        (["sensor", "simulate", "--hand-force", "3"], "--hand-force: needs 3 values after it"),
+    ],
+)
+def test_several_values_are_written_as_the_option_wants_them(words: list[str], says: str) -> None:
+    done = CliRunner().invoke(app, words)
+    assert done.exit_code == 2
+    assert says in " ".join(done.stderr.split())
+
+
 @pytest.mark.parametrize("option", IN_FILES)
 def test_a_fact_that_only_a_file_gives_is_named_by_its_key(option: str) -> None:
     done = CliRunner().invoke(app, ["wall", option, "1"])

@@ -251,7 +251,10 @@ def test_values_out_of_range_are_answered_and_change_nothing(server: Any) -> Non
                 ({"kind": "drag", "place": [1e9, 0]}, "must be 2 numbers in"),
                 ({"kind": "drag", "place": [0.0]}, "must be 2 numbers in"),
                 ({"kind": "drag", "place": [10**400, 0]}, "must be 2 numbers in"),
-                ({"kind": "change", "name": "stiffness", "value": 1e9}, "must lie in [100, 50000]"),
+                (
+                    {"kind": "change", "name": "stiffness", "value": 1e9},
+                    "must lie in [100, 50000] N/m",
+                ),
                 ({"kind": "change", "name": "limits", "value": 9}, "no setting is called 'limits'"),
                 ({"kind": "mode", "mode": "fly"}, "there are: press, tap, rest"),
             ):

@@ -154,7 +154,7 @@ def test_a_fault_by_time_names_the_lateness_and_the_doctor(fault: ebac.Fault) ->
     else:
         assert "woke up to 12.3 ms late and skipped 12 ticks; `ebac doctor`" in notes[0]
         assert (
-            "without hardware, or with nobody at the handle, patience helps: bus.silent = 50"
+            "without hardware, or with nobody at the handle, let the loop be late: bus.silent = 50"
             in notes[0]
         )
         assert "or more; only then look at cables" in notes[0]

@@ -25,7 +25,10 @@ def parsed(text: str) -> dict[str, Any]:
             raise ValueError(_key_again(text, int(again[1]))) from None
         twice = re.match(r"Cannot declare \((.*)\) twice(.*)", str(error))
         if twice is None:
-            raise ValueError(f"{error}{_comma(text, str(error))}") from None
+            hint = _comma(text, str(error))
+            if not hint and str(error).startswith("Invalid value"):
+                hint = "; write true or false, a number without its unit, or text in quotes"
+            raise ValueError(f"{error}{hint}") from None
         table = ".".join(re.findall("'([^']*)'", twice[1]))
         raise ValueError(f"the table [{table}] is there twice{twice[2]}; merge the two") from None
 

@@ -208,8 +208,12 @@ def _serve(
         except ImportError as error:
             output.fail(str(error))
         except OSError as error:
-            where = f"--host {settings['host']} --port {settings['port']}"
-            output.fail(f"{where}: {error.strerror or error}; give another one")
+            where = f"--host {settings['host']}"
+            if settings["port"]:
+                where += f" --port {settings['port']}"
+            output.fail(
+                f"{where}: {error.strerror or error}; give an address of this machine, or leave it out"
+            )
         watch(server, interrupts, no_browser=no_browser, as_json=as_json)
         kept = list(server.session.kept)
     ended("Ended; drives without power.", kept)

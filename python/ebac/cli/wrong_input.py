@@ -51,7 +51,7 @@ def sentence(error: Any, command: Any, words: Sequence[str]) -> str:
         return _unknown_option(str(wrong), command)
     param = getattr(error, "param", None)
     if param is None:
-        return _plain(message, wrong, error)
+        return _plain(message, wrong, error, command)
     name = option_name(param)
     if type(error).__name__ == "MissingParameter":
         return f"{name}: is missing; {_help(param)}"
@@ -162,9 +162,10 @@ def _unknown_option(wrong: str, command: Any) -> str:
     return f"{wrong}: there is no such option{hint}; see --help"
 
 
-def _plain(message: str, wrong: str | None, error: Any) -> str:
+def _plain(message: str, wrong: str | None, error: Any, command: Any) -> str:
     if wrong and "requires" in message:
-        return f"{wrong}: needs a value after it"
+        many = next((param.nargs for param in command.params if wrong in param.opts), 1)
+        return f"{wrong}: needs {f'{many} values' if many > 1 else 'a value'} after it"
     found = re.search(r"unexpected extra argument(?:s|\(s\))? \((.*)\)", message)
     if found:
         return f"{found[1]}: {_too_many(error.ctx, found[1])}"
@@ -176,6 +177,8 @@ def _too_many(context: Any, words: str) -> str:
     remedy = INSTEAD.get(name, "quote a value that has spaces")
     if words.endswith(".toml") and any("--scenario" in p.opts for p in context.command.params):
         remedy = f"a file is given as --scenario {words}"
+    elif any("--law" in p.opts and getattr(p, "multiple", False) for p in context.command.params):
+        remedy = "several laws are given as --law tca,ebac"
     remedy += ", or see --help"
     if any(param.param_type_name == "argument" for param in context.command.params):
         return f"too many words; {remedy}"

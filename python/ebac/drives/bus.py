@@ -10,6 +10,7 @@ from pathlib import Path
 from types import TracebackType
 from typing import TYPE_CHECKING, Any, Self
 
+from ebac._util.arguments import whole
 from ebac._util.wrong_calls import plain_constructor
 from ebac.drives.bus_monitor import BusMonitor
 from ebac.drives.errors import BusError
@@ -115,12 +116,14 @@ class DriveBus:
 
         Raises
         ------
+        TypeError
+            For a node id that is no whole number.
         ValueError
-            For a node id out of range.
+            For one out of range.
         """
         from ebac.drives.drive import Drive
 
-        if not 1 <= node <= 127:
+        if not 1 <= whole("node", node) <= 127:
             raise ValueError(f"node = {node}: must lie in [1, 127]")
         if node not in self._drives:
             self._drives[node] = Drive(self, node, eds=eds, timeout=timeout)

@@ -61,7 +61,7 @@ def remedy(fault: Fault) -> str:
     first = "`ebac doctor` says what this machine lacks for real time"
     patient = PATIENT.get(fault)
     more = (
-        f"; without hardware, or with nobody at the handle, patience helps: {patient}"
+        f"; without hardware, or with nobody at the handle, let the loop be late: {patient}"
         if patient
         else ""
     )

@@ -18,6 +18,7 @@ CONFIGURED = "as configured"
 SURFACE = 0.01
 #: Ranges of what has a slider: of a wall's stiffness [N/m] and damping [N s/m], and of the delay [samples].
 RANGES = {"stiffness": (100.0, 50e3), "damping": (0.0, 100.0), "delay": (1, 8)}
+UNITS = {"stiffness": "N/m", "damping": "N s/m", "delay": "samples"}
 _OWN_MATERIAL = ("soft", "tissue")
 
 
@@ -80,10 +81,17 @@ def _check(name: str, value: Any) -> None:
         if not isinstance(value, bool):
             raise ValueError(f"observer = {value!r}: must be true or false")
     elif name in RANGES:
-        low, high = RANGES[name]
+        (low, high), unit = RANGES[name], UNITS[name]
         kinds = (int,) if name == "delay" else (int, float)
-        if isinstance(value, bool) or not isinstance(value, kinds) or not low <= value <= high:
-            raise ValueError(f"{name} = {str(value)[:40]}: must lie in [{low:g}, {high:g}]")
+        if isinstance(value, bool) or not isinstance(value, kinds):
+            a_number = "a whole number" if name == "delay" else "a number"
+            raise ValueError(
+                f"{name} = {str(value)[:40]!r}: must be {a_number} of {unit}, without unit"
+            )
+        if not low <= value <= high:
+            raise ValueError(
+                f"{name} = {value:.10g} {unit}: must lie in [{low:g}, {high:g}] {unit}"
+            )
     else:
         raise unknown_name("setting", name[:40], [*names, "observer", *RANGES])
 
