@@ -108,9 +108,10 @@ def test_what_needs_a_restart_is_restarted(session: Session) -> None:
     ("change", "message"),
     [
         ({"law": "magic"}, "magic"),
-        ({"stiffness": 1e9}, r"must lie in \[100, 50000\]"),
+        ({"stiffness": 1e9}, r"must lie in \[100, 50000\] N/m"),
         ({"stiffness": float("nan")}, "must lie in"),
-        ({"delay": 1.5}, "must lie in"),
+        ({"delay": 1.5}, "must be a whole number of samples"),
+        ({"stiffness": "20 kN/m"}, "must be a number of N/m, without unit"),
         ({"observer": 1}, "true or false"),
         ({"limits": 3}, "limits"),
     ],
