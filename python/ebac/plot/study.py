@@ -230,7 +230,7 @@ def _overview(study: Study, *, narrow: bool) -> Picture:
         left, right = figure.subplots(1, 2, sharey=True)
     figure.narrow = partial(_overview, study, narrow=True)
     _table(left, good, {"cmap": "RdYlBu", "vmin": 0, "vmax": 100}, _short, still, narrow=narrow)
-    left.set_title("good hands [%] (exact and still, where more)", fontsize="medium")
+    left.set_title("good hands [%]; in brackets: exact and still", fontsize="medium")
     log: dict[str, Any] = {"cmap": "YlOrRd", "norm": LogNorm(1e-2, 1e5, clip=True)}
     _table(right, drawn, log, _energy, narrow=narrow)
     right.set_title("most energy drawn in any window", fontsize="medium")
