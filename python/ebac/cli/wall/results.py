@@ -161,9 +161,12 @@ def show(
         part = slice(first, first + LAWS_ABREAST)
         laws = [contact.law for contact in contacts[part]]
         show_lines(BODY_LINES, dict(zip(laws, (bodies or [])[part], strict=True)))
-    if any((body.normal_error_deg or 0) > 90 for body in bodies or []):
+    if bodies:
         output.say(
-            "normal error: the largest angle between force and surface; beyond 90 deg the law pulled into the body."
+            "depth: mean over the last 30 %; normal error: the largest angle between force and surface then, beyond 90 "
+            "deg the law pulled into the body; friction share: the largest tangential over normal force; in contact: "
+            "of all ticks; stored at most: elastic energy of the world; ticks come through: inside a body that did not "
+            "hold the handle."
         )
     output.say("Simulated, not measured:", style="bold")
     output.indented(formatting.describe(scenario).replace("; ", "\n"))
