@@ -177,12 +177,18 @@ def _too_many(context: Any, words: str) -> str:
     remedy = INSTEAD.get(name, "quote a value that has spaces")
     if words.endswith(".toml") and any("--scenario" in p.opts for p in context.command.params):
         remedy = f"a file is given as --scenario {words}"
-    elif any("--law" in p.opts and getattr(p, "multiple", False) for p in context.command.params):
+    elif _are_laws(words.split()):
         remedy = "several laws are given as --law tca,ebac"
     remedy += ", or see --help"
     if any(param.param_type_name == "argument" for param in context.command.params):
         return f"too many words; {remedy}"
     return f"`ebac {name}` takes no argument, only options; {remedy}"
+
+
+def _are_laws(words: Sequence[str]) -> bool:
+    from ebac.laws import LAWS
+
+    return all(word in LAWS for word in words)
 
 
 def _or(words: Sequence[str], joint: str = "or") -> str:
