@@ -22,7 +22,7 @@ from ebac._core import (
     Wall,
     _World,
 )
-from ebac._util.arguments import keywords_only, refuse_unknown, require, require_path, shown
+from ebac._util.arguments import keywords_only, refuse_unknown, require, require_file, shown
 from ebac._util.copying import refuse_uncopyable
 from ebac._util.misplaced import Misplaced, misplaced
 from ebac._util.plural import plural
@@ -243,10 +243,12 @@ class Scenario:
         ------
         FileNotFoundError
             When there is no such file.
+        IsADirectoryError
+            When it is a folder.
         ValueError
             As `from_toml`, with the file's name and the line.
         """
-        require_path(path, "Scenario.load")
+        require_file(path, "Scenario.load")
         text = ""
         try:
             text = read_text(path)

@@ -1,6 +1,7 @@
 """Wrong values of public functions: a sentence that names function or parameter, never an error from deep inside."""
 
 from collections.abc import Callable
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -286,6 +287,18 @@ def test_a_value_that_cannot_be_is_refused_by_name(
     with pytest.raises(kind) as refused:
         call(trace)
     assert refused.value.args[0] == message
+
+
+@pytest.mark.parametrize("load", [ebac.load, ebac.Scenario.load])
+def test_a_file_that_is_not_there_is_told_as_the_command_tells_it(
+    load: Callable[[Path], object], tmp_path: Path
+) -> None:
+    with pytest.raises(FileNotFoundError, match=r"there is no such file: .*none\.npz"):
+        load(tmp_path / "none.npz")
+    folder = tmp_path / "logs.npz"
+    folder.mkdir()
+    with pytest.raises(IsADirectoryError, match=r"is a folder; give a file in it: .*logs\.npz"):
+        load(folder)
 
 
 def test_what_is_right_is_taken() -> None:

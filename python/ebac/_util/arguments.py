@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import difflib
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from errno import EISDIR, ENOENT
 from functools import wraps
 from numbers import Real
 from operator import index
 from os import PathLike
+from pathlib import Path
 from typing import Any, TypeVar
 
 Class = TypeVar("Class", bound=type)
@@ -73,6 +75,15 @@ def require(value: Any, types: type | tuple[type, ...], function: str, wanted: s
 def require_path(value: Any, function: str, wanted: str = "the path of a file") -> None:
     """Raise TypeError unless a value can be the path of a file."""
     require(value, (str, PathLike), function, wanted)
+
+
+def require_file(value: Any, function: str) -> None:
+    """Raise TypeError unless a value can be a path, FileNotFoundError or IsADirectoryError if it is that of no file."""
+    require_path(value, function)
+    if not Path(value).exists():
+        raise FileNotFoundError(ENOENT, "there is no such file", str(value))
+    if Path(value).is_dir():
+        raise IsADirectoryError(EISDIR, "is a folder; give a file in it", str(value))
 
 
 def whole(name: str, value: Any) -> int:

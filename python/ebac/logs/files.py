@@ -10,7 +10,7 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ebac._util.arguments import require_path
+from ebac._util.arguments import require_file, require_path
 from ebac._util.progress import Progress
 from ebac.logs.about import SIMULATED_DRIVES, SIMULATED_FILE, About
 from ebac.logs.layout import Layout
@@ -173,8 +173,7 @@ def load(
     check_order(start, stop)
     path = Path(path)
     kind = extension(path, READABLE)
-    if path.is_dir():
-        raise IsADirectoryError(21, "is a folder; give a file in it", str(path))
+    require_file(path, "ebac.load")
     if kind == ".mcap":
         log = read(path, start=start, stop=stop, progress=progress)
         if log.condition.damaged:
