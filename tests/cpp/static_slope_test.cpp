@@ -62,7 +62,8 @@ TEST(StaticSlope, TheSurfaceIsFollowedUntilASlopeIsKnown) {
   StaticSlope slope(kLeast);
   const double step = kLeast / 10;
   for (int i = -2; slope.value() == 0 && i < 100; ++i) {
-    const double surface = i * step, x = 2 * i * step;  // it recedes half as fast as the handle comes
+    const double surface = i * step,
+                 x = 2 * i * step;  // it recedes half as fast as the handle comes
     slope.step(kStiffness * std::max(x - surface, 0.0), x, 2 * step / kTick, step);
   }
   EXPECT_NEAR(slope.value(), kStiffness, 1e-3);
@@ -92,7 +93,8 @@ TEST(StaticSlope, AWorldThatOnlyDampsHasNone) {
   bool changed = false;
   for (int i = 0; i < 300; ++i) {
     const double t = i * kTick;
-    changed |= slope.step(kDamping * std::cos(40 * t), 0.025 * std::sin(40 * t), std::cos(40 * t), 0);
+    changed |=
+        slope.step(kDamping * std::cos(40 * t), 0.025 * std::sin(40 * t), std::cos(40 * t), 0);
   }
   EXPECT_FALSE(changed);  // or one would divide by it
   EXPECT_EQ(slope.value(), 0);
