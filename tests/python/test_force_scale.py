@@ -91,9 +91,9 @@ def test_a_recording_without_one_of_the_forces_is_refused(swaying: Recording) ->
 
 def test_mass_and_damping_are_needed_and_checked(swaying: Recording) -> None:
     foreign = replace(swaying, mass=None, damping=None)
-    with pytest.raises(ValueError, match=r"--mass or mass=\.\.\. \[kg\]"):
+    with pytest.raises(ValueError, match=r"give both, --mass KG --damping"):
         force_scale(foreign)
-    with pytest.raises(ValueError, match=r"--damping or damping=\.\.\. \[N s/m\]"):
+    with pytest.raises(ValueError, match=r"give both, --mass KG --damping"):
         force_scale(foreign, mass=0.25)
     assert force_scale(foreign, mass=0.25, damping=2.0) == force_scale(swaying)
     with pytest.raises(ValueError, match=r"mass = 0 kg: must lie in \[0.001, 100\] kg"):

@@ -113,8 +113,8 @@ def test_the_error_budget_stands_beside_the_table() -> None:
         (["circle.csv", "--column", "x"], "--column = x: must be two or three, like x,y"),
         (["circle.csv", "--column", "x,w"], "circle.csv: column 'w': no such name; there are: "),
         (
-            ["circle.csv", "--unit", "inch"],
-            "--unit = 'inch': no such name, did you mean 'in'; there are: m, mm, cm",
+            ["circle.csv", "--unit", "inches"],
+            "--unit = 'inches': no such name, did you mean 'inch'; there are: m, mm, cm",
         ),
         (
             ["circle.csv", "--shape", "ellipse"],
