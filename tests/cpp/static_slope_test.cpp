@@ -62,8 +62,8 @@ TEST(StaticSlope, TheSurfaceIsFollowedUntilASlopeIsKnown) {
   StaticSlope slope(kLeast);
   const double step = kLeast / 10;
   for (int i = -2; slope.value() == 0 && i < 100; ++i) {
-    const double surface = i * step,
-                 x = 2 * i * step;  // it recedes half as fast as the handle comes
+    const double x = 2 * i * step;
+    const double surface = i * step;  // recedes half as fast as the handle comes
     slope.step(kStiffness * std::max(x - surface, 0.0), x, 2 * step / kTick, step);
   }
   EXPECT_NEAR(slope.value(), kStiffness, 1e-3);

@@ -56,12 +56,13 @@ def test_declared_friction_costs_no_wall(
     assert row.most_drawn_J < 1e-3
 
 
-@pytest.mark.parametrize(
-    "late", [0.0, 1e-4, 3e-4, 5e-4]
-)  # m, so that each lands at another part of a tick
+@pytest.mark.parametrize("late", [0.0, 1e-4, 3e-4, 5e-4])
 @pytest.mark.parametrize("stiffness", [30.0, 100.0, 300.0, 1000.0])
 def test_the_first_contact_with_a_soft_world_does_not_click(stiffness: float, late: float) -> None:
-    """The law counted with a stiff wall until it had met the world: 40 N for 1 ms on 30 N/m, then 3 N."""
+    """The law counted with a stiff wall until it had met the world: 40 N for 1 ms on 30 N/m, then 3 N.
+
+    `late` is a way [m], so that each hand lands at another part of a tick.
+    """
     wall = ebac.Wall(stiffness=stiffness, position=0.01 - late)
     force = ebac.simulate(ebac.Scenario(device=NOISY, environment=wall, seconds=0.5))["f_cmd"]
     first = int(np.argmax(force != 0))

@@ -26,7 +26,7 @@ namespace ebac {
 /// ((d + 0.8) T + current_lag). Twice as much loses walls where the observer is told half of the
 /// mass or a wrong lag of the sensor. On a soft world, of slope K, it is at most sqrt(K (M + heaviest
 /// hand)), half of critical for that hand: more would only make it slow. Until a contact has shown its
-/// slope, K is at least its first force over the way of that tick. Where the world has a
+/// slope, K is what its first force over the way of that tick shows at least. Where the world has a
 /// damping B of its own, B and the damper are at most 1.5 B_v together. The world may be shown at its
 /// whole stiffness while moving.
 class ObservedForce {

@@ -6,6 +6,7 @@ import json
 import sys
 import time
 from collections.abc import Sequence
+from errno import EACCES, EADDRINUSE
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -208,12 +209,10 @@ def _serve(
         except ImportError as error:
             output.fail(str(error))
         except OSError as error:
-            where = f"--host {settings['host']}"
-            if settings["port"]:
-                where += f" --port {settings['port']}"
-            output.fail(
-                f"{where}: {error.strerror or error}; give an address of this machine, or leave it out"
-            )
+            refused = error.errno in (EADDRINUSE, EACCES)  # the port, else the host
+            where = f"--port {settings['port']}" if refused else f"--host {settings['host']}"
+            remedy = "another one" if refused else "an address of this machine"
+            output.fail(f"{where}: {error.strerror or error}; give {remedy}, or leave it out")
         watch(server, interrupts, no_browser=no_browser, as_json=as_json)
         kept = list(server.session.kept)
     ended("Ended; drives without power.", kept)

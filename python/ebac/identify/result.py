@@ -184,14 +184,16 @@ class ArmResult:
         """
         lost = [n for n in self.undetermined if kind(n) in HAND]
         if lost:
-            remedy = "; record one with more excitation, or fix some of the values"
+            target = self.problem.targets[0]
             if self.flip:
                 remedy = f". {self.misses[0]}"
-            elif self.problem.targets[0].path is None and not self.problem.targets[0].switches:
+            elif target.path is None and not target.switches:
                 remedy = (
-                    "; it was taken as held in one place: if it went to another, give the times, Target.steps(...) or "
-                    "--switch"
-                ) + remedy.replace("; record", ". Else record")
+                    "; it was taken as held in one place. If it went to another, give the times, Target.steps(...) or "
+                    "--switch; else record one with more excitation, or fix some of the values"
+                )
+            else:
+                remedy = "; record one with more excitation, or fix some of the values"
             raise ValueError(
                 f"{', '.join(lost)}: not determined by this log, so there is no hand to simulate{remedy}"
             )

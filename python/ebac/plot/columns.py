@@ -64,10 +64,8 @@ def plot_columns(trace: Trace, names: Sequence[str]) -> Picture:
             lines = list(_lines(trace, columns))
             ink = [float(np.nansum(np.abs(np.diff(values)))) for _, values in lines]
             for i, (label, values) in enumerate(lines):
-                above = 2 + sum(other > ink[i] for other in ink) / len(
-                    ink
-                )  # the longest line below
-                _line(ax, trace["t"], factor * values, i, label, above)
+                covers = sum(other > ink[i] for other in ink)  # the longest line lies below
+                _line(ax, trace["t"], factor * values, i, label, above=2 + covers / len(ink))
         dress(
             ax, f"{formatting.QUANTITY_OF.get(unit, '')} [{shown}]".strip() if unit != "1" else ""
         )
