@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ebac.plot.style import dress, legend, line, new_figure
+from ebac.plot.style import dress, legend, line, new_figure, plain_decades
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -102,7 +102,7 @@ def _response(size: Axes, follows: Axes, result: ArmResult, recording: int) -> N
         f, np.abs(z.model(mass, damping, stiffness)), color="#009e73", label="eq. (4) as fitted"
     )
     size.set(xscale="log", yscale="log")
-    _plain_numbers(size)
+    plain_decades(size)
     model = np.abs(z.model(mass, damping, stiffness))
     size.set_ylim(0.2 * model.min(), 5 * model.max())
     dress(size, "|Z| = |K0 + B0 s + M0 s²|\n[N/m]")
@@ -116,19 +116,10 @@ def _response(size: Axes, follows: Axes, result: ArmResult, recording: int) -> N
         label="above by chance in 5 % of the frequencies",
     )
     follows.set(xscale="log", ylim=(0, 1.05))
-    _plain_numbers(follows)
+    plain_decades(follows)
     follows.set_xlabel("frequency [Hz]")
     dress(follows, "coherence")
     legend(follows)
-
-
-def _plain_numbers(ax: Axes) -> None:
-    """Label a logarithmic axis at 1, 2 and 5 of each decade."""
-    from matplotlib.ticker import LogLocator, NullFormatter
-
-    ax.xaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
-    ax.xaxis.set_major_formatter("{x:g}")
-    ax.xaxis.set_minor_formatter(NullFormatter())
 
 
 def plot_device(result: DeviceResult) -> Picture:

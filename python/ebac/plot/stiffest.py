@@ -8,11 +8,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
-from matplotlib.ticker import LogLocator
 
 from ebac._util import formatting
 from ebac._util.plural import plural
-from ebac.plot.style import Picture, colours, dress, figure_legend, new_figure
+from ebac.plot.style import Picture, colours, dress, figure_legend, new_figure, plain_decades
 
 if TYPE_CHECKING:
     from ebac.studies.stiffest import Stiffest
@@ -71,9 +70,7 @@ def _draw(found: Stiffest, abreast: int) -> Picture:
     ax = grid[0, 0]
     ax.set_ylim(-4, 104)
     ax.set_xscale("log")
-    ax.xaxis.set_major_formatter("{x:g}")
-    ax.xaxis.set_minor_locator(LogLocator(subs=(2, 5)))
-    ax.xaxis.set_minor_formatter("{x:g}")
+    plain_decades(ax)
     known = [LINES[name] for name in LINES if name in found.counts]
     handles = [Line2D([], [], color="0.3", **style) for _, style in known]
     handles.append(Line2D([], [], **NEEDED))

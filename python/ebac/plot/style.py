@@ -11,6 +11,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.colors import to_hex, to_rgb
 from matplotlib.figure import Figure
+from matplotlib.ticker import LogLocator, NullFormatter
 from numpy.typing import NDArray
 
 from ebac._core import Wall
@@ -168,6 +169,13 @@ def dress(ax: Axes, ylabel: str) -> None:
     ax.set_axisbelow(True)
     ax.margins(x=0.01)
     ax.spines[["top", "right"]].set_visible(False)
+
+
+def plain_decades(ax: Axes) -> None:
+    """Label the logarithmic x axis of an axes at 1, 2 and 5 of each decade, in plain numbers."""
+    ax.xaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
+    ax.xaxis.set_major_formatter("{x:g}")
+    ax.xaxis.set_minor_formatter(NullFormatter())
 
 
 def line(ax: Axes, t: Values, y: Values, **style: Any) -> None:
