@@ -127,7 +127,7 @@ def test_inches_are_a_unit(unit: str, tmp_path: Path) -> None:
 
 
 def test_a_folder_is_no_recording(tmp_path: Path) -> None:
-    with pytest.raises(ValueError, match="is a folder"):
+    with pytest.raises(IsADirectoryError, match="is a folder"):
         load(tmp_path)
 
 

@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import TypeVar
+
+Line = TypeVar("Line", str, list[str])  # as text, or in cells
 
 #: How the first line of a sample CSV begins, see `ebac demo`.
 SIMULATED = "Simulated by ebac"
@@ -39,7 +42,7 @@ def read_text(path: str | Path) -> str:
     )
 
 
-def with_rows(lines: list[str]) -> list[str]:
+def with_rows(lines: list[Line]) -> list[Line]:
     """Return the lines of a CSV file, if they are a heading and rows.
 
     Raises

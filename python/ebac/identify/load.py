@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from ebac._util.arguments import number, require_path, unknown
+from ebac._util.arguments import number, require_file, unknown
 from ebac._util.plural import plural
 from ebac._util.text_file import says_simulated
 from ebac.identify.columns import QUANTITIES, assign, listed
@@ -88,18 +88,16 @@ def load(
     ------
     FileNotFoundError
         When there is no such file.
+    IsADirectoryError
+        When it is a folder.
     TypeError
         For an option of another type.
     ValueError
         When it cannot be read, a column is missing or is not numeric, or a unit is unknown; for an option that does not
         apply to this file.
     """
-    require_path(path, "ebac.identify.load")
+    require_file(path, "ebac.identify.load")
     path = Path(path)
-    if not path.exists():
-        raise FileNotFoundError(2, "there is no such file", str(path))
-    if path.is_dir():
-        raise ValueError(f"{path}: is a folder; give a file in it")
     if rate is not None and not 0 < number("rate", rate) < np.inf:
         raise ValueError(f"rate = {rate:g} Hz: must be greater than 0, and finite")
     columns, units = words_by_signal("columns", columns), words_by_signal("units", units)

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ebac._util.headings import FACTORS, split_heading
-from ebac._util.text_file import delimited, read_text
+from ebac._util.text_file import delimited, read_text, with_rows
 
 #: Free motion of a hand before contact with the wall, unless given [m].
 APPROACH = 0.010
@@ -103,9 +103,7 @@ def read_csv(path: str | Path) -> dict[str, list[str]]:
         lines = [row for row in csv.reader(text, delimiter=mark) if any(c.strip() for c in row)]
     except csv.Error as error:
         raise ValueError(str(error)) from None
-    if not lines:
-        raise ValueError("the file is empty: needs a heading and rows below it")
-    heading, *rows = lines
+    heading, *rows = with_rows(lines)
     names = [cell.strip() for cell in heading]
     if len(set(names)) < len(names):
         twice = next(name for name in names if names.count(name) > 1)

@@ -113,8 +113,6 @@ def _from_text(path: Path, columns: Sequence[str] | None, unit: str | None) -> R
     chosen = [bare.get(c, c) for c in columns] if columns else _guess(list(bare), bare)
     _known(chosen, list(table))
     points = np.stack([_numbers(c, table[c]) for c in chosen], axis=1)
-    if not len(points):
-        raise ValueError("the file has no rows below its heading")
     given_units = {_bare(c)[1] for c in chosen}
     if len(given_units) > 1:
         raise ValueError(f"columns {', '.join(chosen)} have several units: give files with one")
