@@ -141,7 +141,7 @@ def test_csv_and_dataframe_and_back(tmp_path: Path) -> None:
     ("text", "message"),
     [
         ("", "the file is empty"),
-        (HEADING, "population is empty"),
+        (HEADING, "no rows below its heading"),
         ("m_kg,b_Ns_per_m,k_N_per_m\n1,2,3\n", "column target_m is missing"),
         (
             "m_kg,b_Ns_per_m,k_N_per_m,target_m,mass\n1,2,3,.1,1\n",
