@@ -11,12 +11,15 @@ import urllib.error
 import urllib.request
 from collections.abc import Awaitable, Callable, Iterator
 from pathlib import Path
+from socket import create_server
 from typing import Any
 
 import numpy as np
 import pytest
+from typer.testing import CliRunner
 
 import ebac
+from ebac.cli import app
 from ebac.live.gate import Gate
 from ebac.live.messages import MalformedError, read
 from ebac.live.serving import serve
@@ -351,3 +354,16 @@ def test_the_command_prints_its_address_and_ends_with_ctrl_c(
     assert run.returncode == 0, said
     assert end in said
     assert not list(tmp_path.iterdir())
+
+
+def test_an_address_that_cannot_be_is_named_by_its_option() -> None:
+    with create_server(("127.0.0.1", 0)) as other:
+        port = str(other.getsockname()[1])
+        taken = CliRunner().invoke(app, ["live", "--no-browser", "--port", port])
+    assert taken.exit_code == 2
+    assert f"--port {port}: " in " ".join(taken.stderr.split())
+    assert "give another one, or leave it out" in " ".join(taken.stderr.split())
+    of_others = CliRunner().invoke(app, ["live", "--no-browser", "--host", "203.0.113.1"])
+    assert of_others.exit_code == 2
+    assert "--host 203.0.113.1: " in " ".join(of_others.stderr.split())
+    assert "give an address of this machine, or leave it out" in " ".join(of_others.stderr.split())
