@@ -16,7 +16,8 @@ import ebac
 from ebac.cli import app
 from ebac.plot import plot_stiffest
 from ebac.studies import Stiffest, stiffest
-from ebac.studies.stiffest import CRITERIA, LADDER
+from ebac.studies.stiffest import LADDER
+from ebac.studies.stiffest_result import CRITERIA
 
 HANDS = ebac.Operators.grid(mass=[0.05, 0.5], damping=[2], stiffness=[300], target=[0.02, 0.04])
 BASE = ebac.Scenario(

@@ -16,8 +16,9 @@ from ebac._core import TimedBus
 from ebac.drives.apply import Applied, apply, restore, verify
 from ebac.drives.backup import Backup, Backups
 from ebac.drives.bus import DriveBus
+from ebac.drives.data_sheet import Sheet, SheetEntry
 from ebac.drives.drive import Drive
-from ebac.drives.eds import Sheet, SheetEntry, parse_eds, read_eds
+from ebac.drives.eds import parse_eds, read_eds
 from ebac.drives.errors import (
     BusError,
     DriveError,

@@ -18,8 +18,8 @@ from ebac.drives.errors import BusError
 if TYPE_CHECKING:
     import can
 
+    from ebac.drives.data_sheet import Sheet
     from ebac.drives.drive import Drive
-    from ebac.drives.eds import Sheet
 
 #: How long an SDO answer may take [s]. Drives answer within a few ms; a busy laptop does not.
 TIMEOUT = 0.3

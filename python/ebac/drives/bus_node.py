@@ -6,7 +6,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ebac._util.arguments import unknown
-from ebac.drives.eds import Sheet, read_eds
+from ebac.drives.data_sheet import Sheet
+from ebac.drives.eds import read_eds
 from ebac.drives.errors import BusError, DriveError, Refused, WrongAnswer
 from ebac.drives.objects import Object, find, known
 from ebac.drives.sdo import Sdo

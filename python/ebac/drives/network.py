@@ -10,7 +10,8 @@ from typing import Any
 from ebac._util.arguments import require_path, unknown
 from ebac._util.file_kinds import SCENARIO, kind_of
 from ebac._util.wrong_calls import plain_constructor
-from ebac.drives.eds import Sheet, read_eds
+from ebac.drives.data_sheet import Sheet
+from ebac.drives.eds import read_eds
 from ebac.drives.errors import ProfileError
 from ebac.drives.load import BITRATES, BusLoad, Traffic, bus_load
 from ebac.drives.pdo import sync_period

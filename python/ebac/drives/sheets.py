@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from ebac.drives.eds import Sheet
+from ebac.drives.data_sheet import Sheet
 from ebac.drives.errors import ProfileError, lacks, says_absent
 from ebac.drives.objects import find
 from ebac.drives.settings import groups

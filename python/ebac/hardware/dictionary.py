@@ -5,7 +5,8 @@ from __future__ import annotations
 from dataclasses import replace
 
 from ebac._core import SimulatedDrive
-from ebac.drives.eds import Row, Sheet, SheetEntry, parse_eds
+from ebac.drives.data_sheet import Row, Sheet, SheetEntry
+from ebac.drives.eds import parse_eds
 from ebac.drives.network import Node
 from ebac.drives.objects import Object
 

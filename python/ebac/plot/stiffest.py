@@ -14,7 +14,7 @@ from ebac._util.plural import plural
 from ebac.plot.style import Picture, colours, dress, figure_legend, new_figure, plain_decades
 
 if TYPE_CHECKING:
-    from ebac.studies.stiffest import Stiffest
+    from ebac.studies.stiffest_result import Stiffest
 
 #: Panels abreast, and in one column of a journal.
 ABREAST, NARROW = 5, 2

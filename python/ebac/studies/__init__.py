@@ -9,7 +9,8 @@ from ebac.studies.random_worlds import random_worlds
 from ebac.studies.random_worlds_result import RandomWorldRow, RandomWorlds
 from ebac.studies.result import Failure, Study, StudyRow
 from ebac.studies.shapes import ShapeRow, Shapes, shapes
-from ebac.studies.stiffest import Stiffest, StiffestRow, stiffest
+from ebac.studies.stiffest import stiffest
+from ebac.studies.stiffest_result import Stiffest, StiffestRow
 from ebac.studies.study import study
 from ebac.studies.tissue import Tissue, TissueRow, tissue
 from ebac.studies.tuning import Tuned, TunedRow, TuningInterrupted, tune
