@@ -177,7 +177,7 @@ def _too_many(context: Any, words: str) -> str:
     remedy = INSTEAD.get(name, "quote a value that has spaces")
     if words.endswith(".toml") and any("--scenario" in p.opts for p in context.command.params):
         remedy = f"a file is given as --scenario {words}"
-    elif _are_laws(words.split()):
+    elif _are_laws(words.split()) and any("--law" in p.opts for p in context.command.params):
         remedy = "several laws are given as --law tca,ebac"
     remedy += ", or see --help"
     if any(param.param_type_name == "argument" for param in context.command.params):

@@ -105,9 +105,8 @@ def show(study: Study, *, files: bool) -> None:
     _show_failures(study, files=files)
     output.say(
         "ideal wall good: hands that would be good at an ideal wall, - where that is not known, as for a hand with a "
-        "model of its own; power at rest: the lowest mean rate of the port "
-        "energy while a hand rests for 20 s and more, below 0 it is drawn; settled, stiffness on impact: medians. "
-        "`ebac study --help` defines the rest."
+        "model of its own; power at rest: the lowest mean rate of the port energy while a hand rests for 20 s and "
+        "more, below 0 it is drawn; settled, stiffness on impact: medians. `ebac study --help` defines the rest."
     )
     output.say("Simulated, not measured.", style="bold")
 
