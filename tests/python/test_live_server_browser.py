@@ -24,7 +24,8 @@ BALL = """() => {
 
 @pytest.fixture
 def live(tmp_path: Path) -> Iterator[Any]:
-    with serve(folder=tmp_path) as server:
+    """A page on a virtual clock: a browser that draws by the processor would make a real one late."""
+    with serve(virtual=True, folder=tmp_path) as server:
         yield server
 
 

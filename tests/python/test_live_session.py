@@ -3,6 +3,7 @@
 import threading
 import time
 from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 import numpy as np
@@ -171,24 +172,42 @@ def test_a_hand_moves_before_or_after_it_is_left_and_never_between() -> None:
     assert trouble == []
 
 
+@contextmanager
+def key_held(session: Session) -> Iterator[None]:
+    """Hold the dead-man key in the block, from a thread of its own: a start takes longer than 0.3 s on a busy machine."""
+    over = threading.Event()
+
+    def hold() -> None:
+        while not over.wait(0.05):
+            session.hold()
+
+    session.hold()
+    holder = threading.Thread(target=hold)
+    holder.start()
+    try:
+        yield
+    finally:
+        over.set()
+        holder.join()
+
+
 def test_a_dead_man_key_starts_and_stops_it(tmp_path: Path) -> None:
     with Session(dead_man=True, folder=tmp_path) as session:
         with pytest.raises(PermissionError, match="dead-man key"):
             session.start()
-        session.hold()
-        session.start()
-        for _ in range(20):
-            session.hold()
-            time.sleep(0.05)
-        assert session.running, told(session)
+        with key_held(session):
+            session.start()
+            run = session.run
+            assert run is not None
+            until(session, lambda: run.ticks > 1000)
+            assert session.running, told(session)
         released = time.monotonic()
         until(session, lambda: not session.running, 3)
         assert time.monotonic() - released < 1.5
-        until(session, lambda: session.run is not None and session.run.report is not None)
-        report = session.run.report  # type: ignore[union-attr]
-        assert report is not None
-        assert report.ended_by == "dead-man key"
-        assert all(state == "switch on disabled" for state in report.drives), report.drives
+        until(session, lambda: run.report is not None)
+        assert run.report is not None
+        assert run.report.ended_by == "dead-man key", told(session)
+        assert all(state == "switch on disabled" for state in run.report.drives), run.report.drives
 
 
 def test_a_closed_session_is_not_started_again(tmp_path: Path) -> None:
@@ -221,11 +240,11 @@ def test_a_session_whose_run_ends_badly_lets_go_of_its_device(tmp_path: Path) ->
 def test_whatever_goes_wrong_beside_it_the_dead_man_key_is_watched(tmp_path: Path) -> None:
     with Session(dead_man=True, folder=tmp_path) as session:
         for _ in range(2):  # and again in the next run
-            session.hold()
-            session.start()
-            until(session, lambda: bool(session.run and session.run.ticks > 0))
-            session.hand._left, session.hand._left_at = 0.0, []  # a hand of other axes
-            until(session, lambda: bool(session.run and session.run.done))
+            with key_held(session):
+                session.start()
+                until(session, lambda: bool(session.run and session.run.ticks > 0))
+                session.hand._left, session.hand._left_at = 0.0, []  # a hand of other axes
+                until(session, lambda: bool(session.run and session.run.done))
             assert session.trouble
             assert session._watch.is_alive()
 
