@@ -174,7 +174,7 @@ def test_a_hand_moves_before_or_after_it_is_left_and_never_between() -> None:
 
 @contextmanager
 def key_held(session: Session) -> Iterator[None]:
-    """Hold the dead-man key in the block, from a thread of its own: a start takes longer than 0.3 s on a busy machine."""
+    """Hold the dead-man key in the block, also during a start, which may take longer than 0.3 s."""
     over = threading.Event()
 
     def hold() -> None:
