@@ -125,9 +125,13 @@ def test_the_commands_that_have_an_option_of_theirs_are_named() -> None:
     [
         (["wall", "--law", "tca", "ebac"], "several laws are given as --law tca,ebac"),
         (["sensor", "simulate", "--hand-force", "3"], "--hand-force: needs 3 values after it"),
+        (["teleop", "run", "--loss", "10"], "--loss = 10: must lie in [0, 1]; 10 % is 0.1"),
+        (["teleop", "run", "--loss", "10%"], "must lie in [0, 1]; 10 % is 0.1"),
+        (["stiffest", "--share", "95"], "--share = 95: must lie in (0, 1]; 95 % is 0.95"),
+        (["wall", "--delay", "2ms"], "a whole number (in samples); a sample is 1 ms at 1 kHz"),
     ],
 )
-def test_several_values_are_written_as_the_option_wants_them(words: list[str], says: str) -> None:
+def test_a_value_is_written_as_the_option_wants_it(words: list[str], says: str) -> None:
     done = CliRunner().invoke(app, words)
     assert done.exit_code == 2
     assert says in " ".join(done.stderr.split())

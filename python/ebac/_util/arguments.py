@@ -113,6 +113,11 @@ def number(name: str, value: Any) -> float:
     return float(value)
 
 
+def of_percent(value: float) -> str:
+    """Return a remedy for a share that was given in per cent; "" for a value that cannot have been meant so."""
+    return f"; {value:g} % is {value / 100:g}" if 1 < value <= 100 else ""
+
+
 def several(name: str, values: Any) -> list[Any]:
     """Return a list of values, at least one.
 

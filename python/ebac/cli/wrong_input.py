@@ -8,7 +8,7 @@ from difflib import get_close_matches
 from math import isfinite
 from typing import Any
 
-from ebac._util.arguments import unknown
+from ebac._util.arguments import of_percent, unknown
 from ebac._util.headings import FACTORS
 
 #: Options of a scenario, and the options that set the same where a command varies it.
@@ -91,9 +91,10 @@ def _wrong_value(param: Any, name: str, message: str, words: Sequence[str]) -> s
         text = next((v for v in given if _is_text(v, whole=whole)), None)
         if text is not None:
             within = f"; {_must(low, high, unit)}" if (low, high) != (None, None) else ""
-            return f"{name} = {text}: must be {kind}{_in(unit)}{within}{_converted(text, unit)}"
+            remedy = _converted(text, unit) or _of_percent(text.rstrip("% "), high, unit)
+            return f"{name} = {text}: must be {kind}{_in(unit)}{within}{remedy}"
         value = next((v for v in given if not _inside(v, low, high)), given[0] if given else "")
-        return f"{name} = {value}{unit}: {_must(low, high, unit)}"
+        return f"{name} = {value}{unit}: {_must(low, high, unit)}{_of_percent(value, high, unit)}"
     choices = _choices(param)
     if choices:
         value = given[0] if given else ""
@@ -106,6 +107,8 @@ def _converted(text: str, unit: str) -> str:
     """Return the number that a value with a unit is in the unit of its option; "" where that is not known."""
     found = re.fullmatch(r"([-+]?\d+\.?\d*(?:e[-+]?\d+)?) *(\D.*)", text)
     wanted = unit.strip()
+    if found and wanted == "samples" and found[2] in FACTORS["time"]:
+        return "; a sample is 1 ms at 1 kHz"
     for units in FACTORS.values():
         if not found or wanted not in units:
             continue
@@ -116,6 +119,12 @@ def _converted(text: str, unit: str) -> str:
             number = float(found[1]) * units[meant] / units[wanted]
             return f"; for {found[1]} {meant} give {number:.10g}"
     return ""
+
+
+def _of_percent(text: str, high: float | None, unit: str) -> str:
+    """Return the share that a value in per cent is, where an option takes a share."""
+    is_share = high == 1 and not unit and not _is_text(text, whole=False)
+    return of_percent(float(text)) if is_share else ""
 
 
 def values_of(param: Any, words: Sequence[str]) -> Iterator[str]:

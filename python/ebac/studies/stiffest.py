@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ebac._core import Wall
-from ebac._util.arguments import require, several
+from ebac._util.arguments import of_percent, require, several
 from ebac._util.progress import Progress
 from ebac.laws import LAWS
 from ebac.operators import Operators
@@ -83,8 +83,7 @@ def stiffest(
     hands = Operators.grid() if population is None else population
     require(hands, Operators, "ebac.stiffest", "a population, an Operators")
     ladder = _ladder(stiffnesses)
-    if not 0 < share <= 1:
-        raise ValueError(f"share = {share:g}: must lie in (0, 1]; 1 asks that every hand is held")
+    require_share("share", share)
     walls = [wall_of(stiffness) for stiffness in ladder.tolist()]
     if why := no_ideal_rest(walls[0].scenarios(hands[:1], scenario)[0]):
         raise ValueError(f"stiffest: no hand can be judged: {why}; give another base")
@@ -103,6 +102,13 @@ def stiffest(
     shape = (len(found.laws), len(ladder), len(hands))
     counts = {name: flags.reshape(shape).sum(axis=2) for name, flags in met.items()}
     return Stiffest(study=found, base=scenario, stiffnesses=ladder, share=share, counts=counts)
+
+
+def require_share(name: str, share: float) -> None:
+    """Raise ValueError unless a share of the hands can be asked for; `name` is what the caller calls it."""
+    if not 0 < share <= 1:
+        remedy = of_percent(share) or "; 1 asks that every hand is held"
+        raise ValueError(f"{name} = {share:g}: must lie in (0, 1]{remedy}")
 
 
 def _ladder(stiffnesses: Sequence[float]) -> NDArray[np.float64]:

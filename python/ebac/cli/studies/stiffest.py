@@ -93,8 +93,9 @@ def stiffest(
 
 def _check(share: float, stiffnesses: Sequence[float]) -> None:
     """Refuse numbers by the names of their options."""
-    if not 0 < share <= 1:
-        raise ValueError(f"--share = {share:g}: must lie in (0, 1]; 1 asks that every hand is held")
+    from ebac.studies.stiffest import require_share
+
+    require_share("--share", share)
     for stiffness in stiffnesses:
         if not 0 < stiffness <= doubtful_wall.MOST:
             raise ValueError(
