@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -20,7 +21,7 @@ BUZZ, MEAN = 20, 0.01
 
 
 def plot_tissue(found: Tissue) -> Picture:
-    """Draw a column for each material: its curves above, the force under each law below.
+    """Draw a column for each material: its curves, and below them a row for the force under each law.
 
     Parameters
     ----------
@@ -30,36 +31,46 @@ def plot_tissue(found: Tissue) -> Picture:
     Returns
     -------
     Figure
-        The lower row is left out where no law was run.
+        With the first row alone where no law was run.
     """
-    names, rows = list(found.curves), 2 if found.rows else 1
-    figure = new_figure(1.0 + 3.1 * len(names), 1.2 + 2.7 * rows)
-    grid = figure.subplots(rows, len(names), squeeze=False)
+    names, laws = list(found.curves), list(dict.fromkeys(row.law for row in found.rows))
+    heights = [1.5, *[1.0] * len(laws)]
+    figure = new_figure(1.0 + 3.1 * len(names), 1.2 + 1.7 * sum(heights))
+    grid = figure.subplots(
+        len(heights), len(names), squeeze=False, sharex="col", height_ratios=heights
+    )
     for name, ax in zip(names, grid[0], strict=True):
         _curve(ax, found.curves[name])
         ax.set_title(name, fontsize="medium")
     for row, trace in zip(found.rows, found.traces, strict=True):
-        _felt(grid[1, names.index(row.material)], trace, row.law)
+        _felt(grid[1 + laws.index(row.law), names.index(row.material)], trace, row.law)
+    for column in grid.T:
+        _one_scale(column[1:])
     for ax in grid.flat:
         dress(ax, "")
+    for ax in grid[-1]:
         ax.set_xlabel("depth [mm]")
     grid[0, 0].set_ylabel("material\nforce [N]")
-    if found.rows:
-        grid[1, 0].set_ylabel("under a law\nmotor force [N]")
+    for law, ax in zip(laws, grid[1:, 0], strict=True):
+        ax.set_ylabel(f"{law}\nmotor force [N]")
     handles, labels = grid[0, 0].get_legend_handles_labels()
-    if found.rows:
-        more, texts = grid[1, 0].get_legend_handles_labels()
-        handles, labels = [*handles, *more], [*labels, *texts]
     figure_legend(figure, handles, labels, columns=len(labels))
     speed = next(iter(found.curves.values())).speed
     title = f"Soft materials, pressed and let out at {1e3 * speed:g} mm/s"
-    if found.rows:
+    if laws:
         title += (
             "; below, simulated: a hand of 300 N/m presses and lets go;\n"
             f"a force that goes to and fro is pale, its mean over {1e3 * MEAN:g} ms is a line"
         )
     figure.suptitle(title, fontsize="medium")
     return figure
+
+
+def _one_scale(axes: Sequence[Axes]) -> None:
+    """Give the laws of a material the same range of force."""
+    ranges = np.array([ax.get_ylim() for ax in axes])
+    for ax in axes:
+        ax.set_ylim(ranges[:, 0].min(), ranges[:, 1].max())
 
 
 def _curve(ax: Axes, curve: ForceDepth) -> None:
@@ -78,9 +89,8 @@ def _felt(ax: Axes, trace: Trace, law: str) -> None:
     shown = depth > -1
     force = trace["true.f_motor"][shown]
     way = float(np.abs(np.diff(force)).sum())  # N
-    order, style = 2 + 1 / (1 + way), {"color": colour(law), "lw": 0.9, "label": law}
     if way > BUZZ * float(np.ptp(force)):
-        line(ax, depth[shown], force, color=colour(law), lw=0.3, alpha=0.25, zorder=order - 1)
+        line(ax, depth[shown], force, color=colour(law), lw=0.3, alpha=0.25)
         rows = max(1, round(MEAN / float(trace["t"][1] - trace["t"][0])))
         force = np.convolve(trace["true.f_motor"], np.full(rows, 1 / rows), "same")[shown]
-    line(ax, depth[shown], force, zorder=order, **style)
+    line(ax, depth[shown], force, color=colour(law), lw=0.9)
