@@ -192,6 +192,12 @@ def test_a_short_path_in_a_world_is_shown_from_close_by(run: Run) -> None:
     assert not plot_world(far, [long]).axes[1].child_axes
 
 
+@pytest.mark.parametrize(("name", "half"), [("sphere", 50), ("torus", 90), ("plane", 50)])
+def test_a_world_shows_bodies_whole_that_have_an_end(name: str, half: float) -> None:
+    _, cut = plot_world(ebac.worlds.preset(name)).axes
+    assert cut.get_xlim() == pytest.approx((-half, half))
+
+
 def test_the_view_into_a_corner_has_no_holes() -> None:
     view = plot_world(ebac.worlds.preset("corner")).axes[0]
     image = np.asarray(view.images[0].get_array())

@@ -18,10 +18,10 @@ from ebac.plot.style import Picture, colour, dress, legend, new_figure
 from ebac.trace import Trace
 from ebac.worlds import Body, World, distance
 
-#: Half of the side of what is shown [m].
-HALF = 0.05
-#: Half of the side of the view [m].
-WIDEST = 0.06
+#: Half of the side of what is shown [m]: the least that shows whole every body that the last would.
+HALVES = (0.05, 0.06, 0.07, 0.08, 0.09, 0.1)
+#: Half of the side of the view, of half of that of what is shown.
+WIDER = 1.2
 #: Points along each side of a picture.
 PIXELS = 480
 #: From where it is seen: to the left of, before and above the handle.
@@ -53,9 +53,10 @@ def plot_world(world: World, traces: Sequence[Trace] = ()) -> Picture:
     directions = (1, 2) if any(trace.axes > 2 for trace in traces) else (1,)
     figure = new_figure(5.5 + 5.5 * len(directions), 4.9)
     view, *cuts = figure.subplots(1, 1 + len(directions))
-    _view(view, world, traces)
+    half = max(_half(body) for body in world.bodies) if world.bodies else HALVES[0]
+    _view(view, world, traces, half)
     for cut, across in zip(cuts, directions, strict=True):
-        _cut(cut, world, traces, across)
+        _cut(cut, world, traces, across, half)
     source = "simulated: " if traces else ""
     figure.suptitle(source + formatting.world(world), fontsize="medium")
     return figure
@@ -72,20 +73,33 @@ def nearest(world: World, points: Values) -> tuple[Values, Values]:
     return best, out
 
 
-def _view(ax: Axes, world: World, traces: Sequence[Trace]) -> None:
+def _half(body: Body) -> float:
+    """Return the least half of a side at which a body is whole; the first for one that goes on beyond the last."""
+    u = np.linspace(-1, 1, 41)
+    faces = [
+        np.insert(np.stack(np.meshgrid(u, u), -1).reshape(-1, 2), axis, side, axis=1)
+        for axis in range(3)
+        for side in (-1, 1)
+    ]
+    cube = np.concatenate(faces)
+    whole = (half for half in HALVES if (distance(body.solid, 0.95 * half * cube)[0] > 0).all())
+    return next(whole, HALVES[0])
+
+
+def _view(ax: Axes, world: World, traces: Sequence[Trace], half: float) -> None:
     """Draw what parallel rays meet; what hides the handle is cut open at z = 0."""
     forward = -EYE / np.linalg.norm(EYE)
     right = np.cross(forward, [0.0, 0.0, 1.0])
     right /= np.linalg.norm(right)
     up = np.cross(right, forward)
-    u = np.linspace(-WIDEST, WIDEST, PIXELS)
+    u = WIDER * np.linspace(-half, half, PIXELS)
     across, along = (one.ravel() for one in np.meshgrid(u, u))
-    start = across[:, None] * right + along[:, None] * up - 3 * HALF * forward
-    low, high = np.full(3, -HALF), np.full(3, HALF)
-    if _hidden(world, forward):
-        high = np.array([HALF, HALF, 0.0])  # cut open
+    start = across[:, None] * right + along[:, None] * up - 3 * half * forward
+    low, high = np.full(3, -half), np.full(3, half)
+    if _hidden(world, forward, half):
+        high = np.array([half, half, 0.0])  # cut open
     depth, shown = _entry(start, forward, low, high)
-    places = _met(world, start, depth, shown, forward)
+    places = _met(world, start, depth, shown, forward, half)
     d, out = nearest(world, places)
     inside = ((places >= low - 1e-6) & (places <= high + 1e-6)).all(axis=1)
     met = shown & (d <= 4 * NEAR) & inside
@@ -112,7 +126,7 @@ def _view(ax: Axes, world: World, traces: Sequence[Trace]) -> None:
     ax.text(tail[0], tail[1] - 2, "x", ha="right", va="top")
     ax.set_xlim(*size[:2])
     ax.set_ylim(*size[2:])
-    _frame(ax, to_view)
+    _frame(ax, to_view, 1e3 * half)
     ax.set_title("from the left, in front and above", fontsize="medium")
     dress(ax, "[mm]")
     ax.set_xlabel("[mm]")
@@ -127,11 +141,11 @@ def _arrow(
     ax.annotate("", (head[0], head[1]), (tail[0], tail[1]), arrowprops=arrow)
 
 
-def _frame(ax: Axes, to_view: Values) -> None:
-    """Draw the three directions in the lower right, each 12 mm long."""
-    corner = np.array([42.0, -50.0])
+def _frame(ax: Axes, to_view: Values, half: float) -> None:
+    """Draw the three directions in the lower right, each a quarter of `half` [mm] long."""
+    corner = half * np.array([0.84, -1.0])
     for name, unit in zip("xyz", np.eye(3), strict=True):
-        tip = to_view @ (0.012 * unit)
+        tip = to_view @ (0.24e-3 * half * unit)
         _arrow(ax, corner, corner + tip)
         x, y = corner + 1.35 * tip
         ax.text(x, y, name, ha="center", va="center", fontsize="small")
@@ -143,10 +157,10 @@ def _swing(body: Body) -> Values:
     return np.array([motion.amplitude_x, motion.amplitude_y, motion.amplitude_z])
 
 
-def _hidden(world: World, forward: Values) -> bool:
+def _hidden(world: World, forward: Values, half: float) -> bool:
     """Return whether a body stands between the eye and the place where the handle comes in."""
-    way = np.linspace(-3 * HALF, -1e-3, 300)[:, None] * forward
-    way = way[(np.abs(way) <= HALF).all(axis=1)]
+    way = np.linspace(-3 * half, -1e-3, 300)[:, None] * forward
+    way = way[(np.abs(way) <= half).all(axis=1)]
     return bool((nearest(world, way)[0] < -1e-4).any())
 
 
@@ -161,11 +175,16 @@ def _entry(
 
 
 def _met(
-    world: World, start: Values, depth: Values, shown: NDArray[np.bool_], forward: Values
+    world: World,
+    start: Values,
+    depth: Values,
+    shown: NDArray[np.bool_],
+    forward: Values,
+    half: float,
 ) -> Values:
     """Return where rays meet a surface, by steps of the distance to it, or where they have left."""
     depth, going = depth.copy(), np.flatnonzero(shown)
-    last = depth + 4 * HALF
+    last = depth + 4 * half
     for _ in range(STEPS):
         d = nearest(world, start[going] + depth[going, None] * forward)[0]
         depth[going] += np.maximum(d, 0)
@@ -175,10 +194,10 @@ def _met(
     return start + depth[:, None] * forward
 
 
-def _cut(ax: Axes, world: World, traces: Sequence[Trace], up: int) -> None:
+def _cut(ax: Axes, world: World, traces: Sequence[Trace], up: int, half: float) -> None:
     """Draw the plane of x and y (`up` 1) or z (2)."""
-    _section(ax, world, up, (0.0, 0.0), HALF)
-    moves = _ends(ax, world, up)
+    _section(ax, world, up, (0.0, 0.0), half)
+    moves = _ends(ax, world, up, half)
     paths = [_path(trace, up) for trace in traces]
     for trace, path in zip(traces, paths, strict=True):
         label = f"handle under {trace.law}" if trace.law else "handle"
@@ -211,9 +230,9 @@ def _section(
     ax.contour(1e3 * x, 1e3 * y, field, levels=[0], colors="black", linewidths=1.0)
 
 
-def _ends(ax: Axes, world: World, up: int) -> bool:
+def _ends(ax: Axes, world: World, up: int, half: float) -> bool:
     """Draw the outlines of bodies that swing at both ends of it; return whether there are any."""
-    u = np.linspace(-HALF, HALF, PIXELS // 2)
+    u = np.linspace(-half, half, PIXELS // 2)
     x, y = np.meshgrid(u, u)
     points = np.zeros((x.size, 3))
     points[:, 0], points[:, up] = x.ravel(), y.ravel()
