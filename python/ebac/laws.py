@@ -233,6 +233,11 @@ def design(
         made = checked(law)
     if not fitted and is_core_law(made):
         _refuse_force_loop(made)
+    elif not fitted and getattr(made, "observer", False):
+        raise ValueError(
+            f"the law {law_name(made)} has observer = True: it goes by the estimate of the state observer, which needs "
+            "a force sensor, and the device has none; set the law's observer to False, or give the device a sensor"
+        )
     return made
 
 

@@ -288,6 +288,12 @@ def test_a_law_in_python_that_needs_it_is_refused_without() -> None:
     with pytest.raises(ValueError, match=r"the law Observed has observer = True: .*observer=False"):
         ebac.simulate(without, Observed())
     assert len(ebac.simulate(without.replace(observer=True), Observed())) == 51
+    no_sensor = ebac.Scenario(device=ebac.Device(sensor=None), seconds=0.05)
+    needs = r"the law Observed has observer = True: .*needs a force sensor"
+    with pytest.raises(ValueError, match=needs):
+        ebac.simulate(no_sensor, Observed())
+    with pytest.raises(ValueError, match=needs):
+        ebac.study(ebac.Operators.grid()[:1], {"mine": Observed()}, ["d1K10"], base=no_sensor)
 
 
 def test_a_replay_gives_the_commands_of_its_run() -> None:

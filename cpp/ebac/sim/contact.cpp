@@ -109,8 +109,7 @@ void measure_force(const ContactRecord& r, std::size_t tail, std::size_t still_f
   const double rate = static_cast<double>(rows - 1) / (r.t.back() - r.t.front());
   const auto least = static_cast<std::size_t>(std::min(std::ceil(kRingsLeast * rate), 1e9));
   const std::size_t perceived_from = std::max(kRingsDown * still_from, still_from + least);
-  const PerceivedRipple perceived =
-      perceived_ripple(r.force, rate, settled, std::min(perceived_from, tail));
+  const PerceivedRipple perceived = perceived_ripple(r.force, rate, std::min(perceived_from, tail));
   c.ripple_high = perceived.high;
   c.perceived = perceived.perceived;
 }

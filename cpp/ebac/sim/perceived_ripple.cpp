@@ -49,8 +49,7 @@ class Biquad {
 
 }  // namespace
 
-PerceivedRipple perceived_ripple(std::span<const double> force, double rate, std::size_t high_from,
-                                 std::size_t perceived_from) {
+PerceivedRipple perceived_ripple(std::span<const double> force, double rate, std::size_t from) {
   constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   if (!(rate >= kFewestVibrating)) return {kNone, kNone};
   Biquad vibration = Biquad::high_pass(kVibrationFrom, rate, force.front());
@@ -62,12 +61,12 @@ PerceivedRipple perceived_ripple(std::span<const double> force, double rate, std
   for (std::size_t i = 0; i < force.size(); ++i) {
     const double y = vibration(force[i]);
     const double perceived = weight(y);
-    if (i >= high_from) squares += y * y;
-    if (i < perceived_from) continue;
+    if (i < from) continue;
+    squares += y * y;
     mean = (1 - share) * mean + share * perceived * perceived;
     most = std::max(most, mean);
   }
-  const auto rows = static_cast<double>(force.size() - high_from);
+  const auto rows = static_cast<double>(force.size() - from);
   return {std::sqrt(squares / rows), std::sqrt(2 * most) / kDetected};
 }
 

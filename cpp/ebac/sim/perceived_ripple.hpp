@@ -31,17 +31,17 @@ struct PerceivedRipple {
   double perceived;  // 1
 };
 
-/// Filters all of a force of `rate` rows a second [Hz], as after a long rest on its first row.
+/// Filters all of a force of `rate` rows a second [Hz], as after a long rest on its first row, and
+/// counts from row `from` on: until then the filter rings down from an impact.
 ///
-/// high: root mean square from row `high_from` on of y, the force behind a Butterworth high-pass of
+/// high: root mean square of y, the force behind a Butterworth high-pass of
 /// second order at 20 Hz (bilinear transform, corner kept).
 ///
-/// perceived: largest vibration at any time from row `perceived_from` on, in detection thresholds,
+/// perceived: largest vibration at any time, in detection thresholds,
 /// sqrt(2 m) / 25 mN. m is the square of y behind a low-pass of second order (200 Hz, no higher
 /// than 0.4 of the rate; damping 0.5; poles mapped by exp(s T)), averaged with exponential weight
-/// over 0.2 s, from zero at `perceived_from`. A sine that lasts comes to its amplitude over the one
+/// over 0.2 s, from zero at `from`. A sine that lasts comes to its amplitude over the one
 /// that is just detected.
-PerceivedRipple perceived_ripple(std::span<const double> force, double rate, std::size_t high_from,
-                                 std::size_t perceived_from);
+PerceivedRipple perceived_ripple(std::span<const double> force, double rate, std::size_t from);
 
 }  // namespace ebac

@@ -94,8 +94,9 @@ class Contact:
         Applied force after position and force have settled, or over the last 30 % where one does not: peak to peak, and
         root mean square around its mean.
     ripple_high_N : float or None
-        Root mean square of the same behind a Butterworth high-pass of second order at 20 Hz (bilinear transform); the
-        filter starts with the run, as after a long rest on its first value. None below 80 rows a second.
+        Root mean square of the force behind a Butterworth high-pass of second order at 20 Hz (bilinear transform), from
+        twice the settling time on as `perceived`; the filter starts with the run, as after a long rest on its first
+        value. None below 80 rows a second.
     jumps : int
         Changes of the applied force by more than 0.2 N from one tick to the next after the position has settled, or
         over the last 30 % where it does not.

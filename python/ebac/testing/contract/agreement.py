@@ -60,7 +60,7 @@ class Agreement:
             law.reset()
             for k in range(len(trace)):
                 force = law.step(rows.port(k, axis))
-                assert bits(force) == trace.axis("f_cmd", axis)[k].tobytes(), f"tick {k}"
+                assert bits(force) == bits(trace.axis("f_cmd", axis)[k]), f"force [N] in tick {k}"
                 for field in law.state.fields():
                     logged = trace.axis(f"law.{field.name}", axis)[k]
                     known = np.asarray(getattr(law.state, field.name), logged.dtype)
@@ -83,4 +83,4 @@ class Agreement:
                     **{name: column[k] for name, column in zip(ESTIMATED, estimates, strict=True)}
                 )
                 force = law.step(port)
-                assert bits(force) == trace.axis("f_cmd", axis)[k].tobytes(), f"tick {k}"
+                assert bits(force) == bits(trace.axis("f_cmd", axis)[k]), f"force [N] in tick {k}"

@@ -11,6 +11,13 @@ import pytest
 from ebac.testing.contract.subject import Subject, drive, of_core, random_ports, state_of
 
 
+def _same(run: list[tuple[str, str]], known: list[tuple[str, str]], wrong: str) -> None:
+    """Fail at the first step in which two runs differ."""
+    for k, ((force, state), (expected, other)) in enumerate(zip(run, known, strict=True)):
+        assert force == expected, f"{wrong}: {force} N instead of {expected} N in step {k}"
+        assert state == other, f"{wrong}: its state in step {k}"
+
+
 class Memory:
     """Reset is total, copies are independent, and the same input gives the same bits."""
 
@@ -21,7 +28,7 @@ class Memory:
 
     def test_the_same_run_twice_gives_the_same_bits(self, subject: Subject) -> None:
         ports = random_ports(1)
-        assert drive(subject.lively(), ports) == drive(subject.lively(), ports)
+        _same(drive(subject.lively(), ports), drive(subject.lively(), ports), "it acts otherwise")
 
     @pytest.mark.parametrize("start", [0.0, 5e-3], ids=["free", "in contact"])
     def test_reset_forgets_everything(self, subject: Subject, start: float) -> None:
@@ -32,7 +39,7 @@ class Memory:
         law.reset()
         assert state_of(law) == state_of(subject.lively())
         again = drive(law, random_ports(1, start=start))
-        assert again == fresh, "after reset() it acts otherwise than fresh"
+        _same(again, fresh, "after reset() it acts otherwise than fresh")
 
     def test_a_copy_carries_its_state_and_runs_independently(self, subject: Subject) -> None:
         """The loop makes a copy for each axis."""
@@ -42,7 +49,7 @@ class Memory:
         drive(law, ports[:200])
         twin = law.copy() if subject.core else copy.deepcopy(law)
         drive(law, random_ports(4))  # must not reach the copy
-        assert drive(twin, ports[200:]) == whole[200:]
+        _same(drive(twin, ports[200:]), whole[200:], "the copy acts otherwise")
 
     @of_core
     @pytest.mark.parametrize(

@@ -111,9 +111,9 @@ def of_passive(test: Test) -> Test:
     return test
 
 
-def bits(value: float) -> bytes:
-    """Return a number to the bit."""
-    return np.float64(value).tobytes()
+def bits(value: float) -> str:
+    """Return a number in the shortest digits that give it back to the bit, so that a difference can be read."""
+    return repr(float(value))
 
 
 def random_ports(seed: int, n: int = 400, start: float = 0.0, drift: int = 0) -> list[Port]:
@@ -145,6 +145,6 @@ def state_of(law: Any) -> str:
     return repr(law.state.as_dict()) if hasattr(law, "_simulate") else ""
 
 
-def drive(law: Any, ports: list[Port]) -> list[tuple[bytes, str]]:
-    """Return force and state after each step, to the bit."""
+def drive(law: Any, ports: list[Port]) -> list[tuple[str, str]]:
+    """Return force [N] and state after each step, to the bit."""
     return [(bits(law.step(port)), state_of(law)) for port in ports]
