@@ -47,11 +47,9 @@ class Printed:
         file = self.folder / (re.sub(r"[^\w.=,]+", "-", command) + ".json")
         if not file.exists():
             print(f"ebac {command}", flush=True)
-            many = self.threads is not None and command.split()[0] not in (
-                "bench",
-                "wall",
-                "identify",
-            )
+            single = command.split()[0] in ("bench", "wall", "identify")
+            single |= command.startswith("gastroscopy") and "study" not in command
+            many = self.threads is not None and not single
             words = [
                 *command.split(),
                 "--json",

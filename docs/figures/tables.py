@@ -18,6 +18,7 @@ from pathlib import Path
 import adversaries as hostile
 import device_tables as devices
 import friction_tables as friction
+import gastroscopy_tables as gastroscopy
 import held_tables as holding
 import identify_tables as identified
 import law_tables as laws
@@ -72,6 +73,7 @@ TABLES: dict[str, Callable[[Printed], str]] = {
     "limits-steps": sensors.steps,
     "limits-motor": sensors.motor,
     "outliers": tracked.outliers,
+    "gastroscopy": gastroscopy.runs,
     "speed": laws.speed,
 }
 #: Left out unless asked for: what `speed` says depends on what else the machine does; the others take long.
