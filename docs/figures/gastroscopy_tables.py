@@ -28,5 +28,5 @@ def runs(printed: Printed) -> str:
                 f"{run['most_felt_N']:.2f} N",
             ]
         )
-    heads = ["run", "time", "largest force, tip", "tip and bending section", "time above 6 N", "on the hand"]  # fmt: skip
-    return table(heads, rows)
+    forces = ["largest force, tip", "tip and bending section", "time above 6 N", "on the hand"]
+    return table(["run", "time", *forces], rows)

@@ -123,7 +123,8 @@ def test_an_empty_one_is_the_paper_s_joystick() -> None:
         ("[recording]\nmemory = 0.5\n", 2, "recording.memory = 0.5 s: must lie in [1, 3600] s"),
         ("[simulated.hand]\nmass = -1.0\n", 2, "simulated.hand.mass = -1 kg"),
         ("[simulated]\nhands = 2\n", 2, "did you mean 'hand'"),
-        ("speed = 1\n", 1, "speed: no such name"),
+        ("speed = 1\n", 1, "speed: stands in no table; write [limits] in a line above it"),
+        ("interface = 'ebac'\n", 1, "interface: stands in no table; write [bus]"),
         ("bus = 3\n", 1, "bus = 3: must be a table"),
         ("[device.kinematics]\ntype = 'Linear'\naxes = 1\n", None, "2 drives, the device 1 axes"),
         (

@@ -45,6 +45,8 @@ TABLES = [
     "simulated",
 ]
 
+#: Keys of [bus].
+OF_BUS = ["interface", "channel", "drives", "setup", *(key.name for key in BUS)]
 #: What only a scenario has.
 _OF_A_SCENARIO = ("seconds", "jitter", "seed", "hand")
 
@@ -73,6 +75,7 @@ def read(source: Source) -> dict[str, Any]:
         raise source.refuse(
             (next(iter(source.table)),), f"{wrong}: `ebac demo joystick` writes one"
         )
+    _refuse_without_heading(source)
     known(source, (), TABLES)
     values: dict[str, Any] = {"name": source.name, "text": source.text}
     values |= _bus(source)
@@ -101,11 +104,26 @@ def read(source: Source) -> dict[str, Any]:
     return values
 
 
+def _refuse_without_heading(source: Source) -> None:
+    """Refuse a key of a table whose heading was left out."""
+    of_tables = {
+        "bus": OF_BUS,
+        "timing": [one.name for one in Timing.fields()],
+        "limits": [one.name for one in Limits.fields()],
+        "run": [key.name for key in RUN],
+        "recording": [key.name for key in RECORDING],
+    }
+    for name in source.table:
+        heading = next((one for one, keys in of_tables.items() if name in keys), None)
+        if heading is not None and name not in TABLES:
+            wrong = f"{name}: stands in no table; write [{heading}] in a line above it"
+            raise source.refuse((name,), wrong)
+
+
 def _bus(source: Source) -> dict[str, Any]:
     from ebac.drives.network import load
 
-    names = ["interface", "channel", "drives", "setup", *(key.name for key in BUS)]
-    found = known(source, ("bus",), names)
+    found = known(source, ("bus",), OF_BUS)
     asked = word(source, ("bus", "drives"), found.get("drives", "joystick"))
     beside = Path(source.name).parent / asked
     try:
