@@ -47,7 +47,10 @@ BAD: dict[str, tuple[bytes, str]] = {
     "empty.csv": (b"", "is empty: needs a heading"),
     "heading.csv": (b"t,x,force\n", "no rows below its heading"),
     "words.csv": (b"t,x,force\n0,left,1\n1,2,1\n", "'left' in row 1, column 'x', is no number"),
-    "ragged.csv": (b"t,x,force\n0,1,1\n1,2\n", "row 2 has 2 cells, the heading 3"),
+    "ragged.csv": (
+        b"t,x,force\n0,1,1\n1,2\n",
+        "row 2 below the heading has 2 cells, the heading 3; complete that line, or delete it",
+    ),
     "twice.csv": (
         text("t,x,force,x", T, X, F, 0 * X),
         "columns 2 and 4 are both headed 'x'; rename one of them",

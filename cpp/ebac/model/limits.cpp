@@ -12,7 +12,7 @@ void check_limits(const Limits& limits) {
     throw std::invalid_argument(range_message("Limits", "continuous_current",
                                               limits.continuous_current, "A", 1e-3,
                                               limits.peak_current) +
-                                ", up to peak_current");
+                                ", up to peak_current; change both");
   }
   if (limits.end < limits.edge) {
     throw std::invalid_argument(

@@ -13,6 +13,7 @@ from zipfile import BadZipFile
 import numpy as np
 from numpy.typing import NDArray
 
+from ebac._util.plural import plural
 from ebac._util.text_file import delimited, read_text, with_rows
 
 Columns: TypeAlias = dict[str, NDArray[np.float64]]
@@ -81,7 +82,8 @@ def _with_text(file: str, names: list[str], rows: list[list[str]]) -> Table:
     for number, cells in enumerate(rows, 1):
         if len(cells) != len(names):
             raise ValueError(
-                f"{file}: row {number} has {len(cells)} cells, the heading {len(names)}"
+                f"{file}: row {number} below the heading has {plural(len(cells), 'cell')}, the heading {len(names)}; "
+                "complete that line, or delete it"
             )
     columns: Columns = {}
     text: dict[str, str] = {}

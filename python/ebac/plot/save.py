@@ -82,7 +82,9 @@ def save(
         stem = file.stem if file.suffix[1:] in FORMATS else file.name
         file = file.with_name(f"{stem}.{file_format}")
     if file.suffix[1:] not in FORMATS:
-        raise ValueError(f"{file}: a figure is saved as {', '.join(FORMATS)}")
+        raise ValueError(
+            f"{file}: a figure is saved as {', '.join(FORMATS)}; give it that ending, {file.name}.png"
+        )
     inches = None if width is None else _MM * millimetres(width)
     narrow = getattr(figure, "narrow", None)
     if narrow is not None and inches is not None and inches < NARROW:

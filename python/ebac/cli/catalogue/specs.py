@@ -138,6 +138,10 @@ def _draw(device: Device, out: Path | None) -> list[str]:
         return []
     from ebac.plot import plot_workspace, save
 
+    if device.axes == 1:
+        raise ValueError(
+            f"--out {out}: one axis moves along a line, and has no workspace to draw; leave --out out"
+        )
     drawn = plot_workspace(device)
     file = files.free_file(out)
     with output.writing(f"--out {file}"):
