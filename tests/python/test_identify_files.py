@@ -218,6 +218,16 @@ def test_a_unit_that_its_heading_contradicts_is_told(tmp_path: Path) -> None:
     assert not any("as asked" in remark for remark in load(path, units={"x": "mm"}).remarks)
 
 
+def test_a_rate_that_the_time_contradicts_is_told(tmp_path: Path) -> None:
+    path = tmp_path / "log.csv"
+    signals = zip(T, X, F, strict=True)
+    path.write_text("\n".join(["t,x,force", *(f"{t:.6g},{x:.9g},{f:.6g}" for t, x, f in signals)]))
+    own = 1 / (T[1] - T[0])
+    told = f"column 't', which says {own:.4g} rows a second, is not used"
+    assert any(told in remark for remark in load(path, rate=own / 10).remarks)
+    assert not any("which says" in remark for remark in load(path, rate=own).remarks)
+
+
 @pytest.mark.parametrize("by_row", [False, True])
 def test_a_struct_of_matlab_is_a_table(tmp_path: Path, by_row: bool) -> None:
     scipy_io = pytest.importorskip("scipy.io")

@@ -69,9 +69,21 @@ def test_lost_rows_are_bridged_and_not_believed(tmp_path: Path) -> None:
     assert len(r.stretches) == 1
     assert r.known is not None
     assert r.known.sum() == keep.sum()
-    assert any("lost rows are bridged" in text for text in r.remarks)
+    assert any(text.endswith("lost rows are bridged") for text in r.remarks)
+    more = keep & (np.random.default_rng(3).random(len(keep)) > 0.2)
+    less = load(written(tmp_path, t=log.t[more], x=log.x[more], force=log.force[more]))
+    assert any("% of all: the force between is taken" in text for text in less.remarks)
     found = fit_arm(r)
     assert found["K0"].value == pytest.approx(log.truth["K0"], rel=0.01)
+
+
+def test_the_encoder_step_is_seen_beside_empty_rows(tmp_path: Path) -> None:
+    log = recorded(0, level="clean", task="multisine", seconds=4)
+    signals = {"x": log.x.copy(), "force": log.force.copy()}
+    for values in signals.values():
+        values[1000:1200] = np.nan
+    r = load(written(tmp_path, t=log.t, **signals))
+    assert r.count == pytest.approx(log.count, rel=1e-6)
 
 
 def test_pauses_everywhere_are_refused_with_a_sentence(tmp_path: Path) -> None:
@@ -110,7 +122,9 @@ def test_no_option_is_left_out_in_silence(tmp_path: Path) -> None:
     path = written(tmp_path, t=log.t, x=log.x, force=log.force)
     r = load(path, rate=500.0)
     assert r.dt == pytest.approx(2e-3)
-    assert any("column 't' is not used" in text for text in r.remarks)
+    assert any(
+        "column 't', which says 1000 rows a second, is not used" in text for text in r.remarks
+    )
     assert load(path, count=log.count / 2).count == log.count / 2
     with pytest.raises(ValueError, match="x does not move in such steps; it shows steps of"):
         load(path, count=1.37 * log.count)

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ebac._util.arguments import number, require_file, unknown
 from ebac._util.plural import plural
@@ -23,6 +24,9 @@ from ebac.identify.recording import LEAST_ROWS, Recording, count_of
 from ebac.identify.rotary import Conversion, in_si
 from ebac.identify.rows import on_rows
 from ebac.trace import Trace
+
+#: A rate that is asked for and the one of the column of time are told apart if they differ by this share.
+OTHER = 0.05
 
 
 def load(
@@ -239,9 +243,9 @@ def _recording(
             f"{name}: {', '.join(rows)}; name columns of one trial: columns={{'x': 'NAME'}}"
         )
     if rate is not None and "t" in signals:
-        signals.pop("t")
+        own_time = signals.pop("t")
         remarks = [text for text in remarks if not text.startswith("t: ")]
-        remarks.append(f"t: {rate:g} rows a second as asked, column {chosen['t']!r} is not used")
+        remarks.append(_not_its_own(rate, chosen["t"], own_time))
     if "t" not in signals:
         if rate is None:
             ask = (
@@ -257,12 +261,24 @@ def _recording(
     even: dict[str, Any] = dict(_evenly(name, without_held(signals, remarks), remarks))
     guessed = any(text.startswith("x: no unit") for text in remarks)
     plausible(name, even, rotary=rotary, guessed=guessed, rate=rate)
-    found = count_of(signals["x"])  # of the readings, before anything is put between them
+    read = signals["x"][np.isfinite(signals["x"])]
+    found = count_of(read)  # before anything is put between them
     step = f"{1e3 * found:.4g} {'mrad' if rotary else 'mm'}"
     remarks.append(f"encoder step of {step} found in x" if found else "x shows no encoder step")
     return Recording(
         name=name, count=found, remarks=tuple(remarks), rotary=rotary, unread=tuple(left), **even
     )
+
+
+def _not_its_own(rate: float, column: str, t: NDArray[np.float64]) -> str:
+    """Return that a rate was given, and what the column of time says instead."""
+    step = float(np.median(np.diff(t))) if len(t) > 1 else 0.0
+    own = (
+        f", which says {1 / step:.4g} rows a second,"
+        if step > 0 and abs(rate * step - 1) > OTHER
+        else ""
+    )
+    return f"t: {rate:g} rows a second as asked, column {column!r}{own} is not used"
 
 
 def _evenly(name: str, signals: Columns, remarks: list[str]) -> Columns:

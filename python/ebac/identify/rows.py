@@ -15,6 +15,8 @@ Signals = dict[str, NDArray[np.float64]]
 EQUAL = 1e-3
 #: So many lost rows are bridged; more are a pause.
 BRIDGED = 8
+#: Of all rows: where more are lost than this, what is put between them biases a fit.
+MANY = 0.1
 #: A stretch between two pauses that is shorter contains nothing about a hand [s].
 SHORTEST = 0.25
 
@@ -96,11 +98,17 @@ def _said(out: dict[str, NDArray[Any]], dt: float, stretches: int, left_out: int
     """Return what was done to the rows, for the reader."""
     worst = float(np.abs(out["early"]).max())
     lost = int((~out["known"]).sum())
-    said = [
-        f"rows are up to {1e3 * worst:.3g} ms off steps of {1e3 * dt:.4g} ms: fitted at their own times"
-    ]
+    said = []
+    if worst > EQUAL * dt:
+        said.append(
+            f"rows are up to {1e3 * worst:.3g} ms off steps of {1e3 * dt:.4g} ms: fitted at their own times"
+        )
     if lost:
-        said.append(f"{lost} lost rows are bridged")
+        share = lost / len(out["known"])
+        line = ": the force between is taken as a straight line, and the estimates may be off by more than their intervals"
+        said.append(
+            f"{lost} lost rows are bridged{f', {share:.0%} of all{line}' if share > MANY else ''}"
+        )
     if stretches > 1:
         said.append(f"the recording pauses: {stretches} stretches, fitted as one hand")
     if left_out:
