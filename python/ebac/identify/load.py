@@ -25,7 +25,7 @@ from ebac.identify.rotary import Conversion, in_si
 from ebac.identify.rows import on_rows
 from ebac.trace import Trace
 
-#: A rate that is asked for and the one of the column of time are told apart if they differ by this share.
+#: A rate that is asked for differs from that of the column of time, if by more than this share.
 OTHER = 0.05
 
 

@@ -105,10 +105,11 @@ def _said(out: dict[str, NDArray[Any]], dt: float, stretches: int, left_out: int
         )
     if lost:
         share = lost / len(out["known"])
-        line = ": the force between is taken as a straight line, and the estimates may be off by more than their intervals"
-        said.append(
-            f"{lost} lost rows are bridged{f', {share:.0%} of all{line}' if share > MANY else ''}"
+        biased = (
+            f", {share:.0%} of all: the force between is taken as a straight line, and the estimates may be off by more "
+            "than their intervals"
         )
+        said.append(f"{lost} lost rows are bridged{biased if share > MANY else ''}")
     if stretches > 1:
         said.append(f"the recording pauses: {stretches} stretches, fitted as one hand")
     if left_out:
