@@ -106,12 +106,12 @@ def _said(out: dict[str, NDArray[Any]], dt: float, stretches: int, left_out: int
     if lost:
         share = lost / len(out["known"])
         biased = (
-            f", {share:.0%} of all: the force between is taken as a straight line, and the estimates may be off by more "
-            "than their intervals"
+            f", {share:.0%} of all: the force between is taken as a straight line, and the estimates may be off by "
+            "more than their intervals"
         )
         said.append(f"{lost} lost rows are bridged{biased if share > MANY else ''}")
     if stretches > 1:
-        said.append(f"the recording pauses: {stretches} stretches, fitted as one hand")
+        said.append(f"the recording pauses: {stretches} stretches, fitted as one")
     if left_out:
         said.append(
             f"{left_out} rows are left out: two at a time, or in a stretch that is too short or at rest"
