@@ -230,6 +230,17 @@ def test_the_limits_of_the_drives_count_on_a_virtual_clock_too(
     assert doubtful_run.doubts(known) == []
 
 
+def test_limits_that_hardly_protect_are_noted() -> None:
+    known = Configuration.load(EXAMPLE)
+    loose = known.replace(limits=known.limits.replace(speed=100.0, end=1.0, pause=0.2))
+    said = doubtful_run.doubts(loose)
+    assert [text.partition(":")[0] for text in said] == [
+        "limits.speed = 100 m/s",
+        "limits.end = 1 m",
+    ]
+    assert "the default for this device is 1.5 m/s" in said[0]
+
+
 def test_a_wall_that_no_table_names_is_noted() -> None:
     text = EXAMPLE.read_text()
     before, _, rest = text.partition("[environment]")

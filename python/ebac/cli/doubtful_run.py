@@ -10,6 +10,20 @@ from ebac.cli import doubtful_device, doubtful_sensor, doubtful_wall, output
 if TYPE_CHECKING:
     from ebac.hardware import Configuration
 
+#: Limits that end a run when something goes wrong, and how many times its default makes one doubtful.
+PROTECTS = (
+    "speed",
+    "jump",
+    "end",
+    "force_age",
+    "unexplained",
+    "overruns",
+    "pause",
+    "starved",
+    "slew",
+)
+LOOSE = 10
+
 
 def tell(file: Path | str, known: Configuration) -> None:
     """Say on stderr what of a configuration is likely not meant: of device, wall, force sensor, and their limits."""
@@ -27,6 +41,7 @@ def doubts(known: Configuration) -> list[str]:
         *_weight_of_the_joystick(known),
         *_edge_behind_the_stops(known),
         *_weak_drives(known),
+        *_loose_limits(known),
     ]
 
 
@@ -72,6 +87,23 @@ def _edge_behind_the_stops(known: Configuration) -> list[str]:
         f"limits.edge = {known.limits.edge:g} m: the stops lie before it, {way:.4g} m from the middle "
         f"(device.kinematics.limit = {kinematics.limit:g} rad), so that the soft wall there never acts; lower edge and "
         "end, or leave them out: then they follow from the stops"
+    ]
+
+
+def _loose_limits(known: Configuration) -> list[str]:
+    from ebac._core import Limits
+
+    usual = Limits.of(known.device)
+    loose = [
+        (one.name, getattr(known.limits, one.name), getattr(usual, one.name), one.unit)
+        for one in Limits.fields()
+        if one.name in PROTECTS
+        and getattr(known.limits, one.name) >= LOOSE * getattr(usual, one.name)
+    ]
+    return [
+        f"limits.{name} = {value:g} {unit}: the default for this device is {default:.3g} {unit}; so loose a limit "
+        "hardly protects: lower it, or leave it out"
+        for name, value, default, unit in loose
     ]
 
 
