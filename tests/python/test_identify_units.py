@@ -32,6 +32,15 @@ def test_a_force_in_kgf_and_a_motor_of_the_other_sign_are_named(arm: Recording) 
     assert any("--flip-motor" in text for text in turned)
 
 
+def test_a_device_names_the_unit_of_its_force_too(tmp_path: Path) -> None:
+    write("device", tmp_path)
+    device = identify.load(next(tmp_path.glob("device*.csv")))
+    assert device.force is not None
+    wrong = identify.fit_device(replace(device, force=device.force / 9.80665))
+    assert wrong.impossible
+    assert any("--unit force=kgf" in text for text in wrong.misses)
+
+
 def test_the_unit_that_the_message_names_is_the_cure(tmp_path: Path, arm: Recording) -> None:
     assert arm.force is not None
     assert arm.motor is not None

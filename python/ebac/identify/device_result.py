@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ebac._core import Compensation
+from ebac.identify import motor_check
 from ebac.identify.device_problem import Drive
 from ebac.identify.estimate import Estimate
 from ebac.identify.intervals import Z95
@@ -117,6 +118,8 @@ class DeviceResult:
             wrong.append(
                 f"The log has no {self._effort} of the hand: nobody may touch the handle while the motor moves it."
             )
+        elif wrong:
+            wrong += motor_check.doubts([self.recording])
         share = 0.0 if wrong else self.explained
         if turned and seems_flipped(share, self.other_signs[turned]):
             sentence = f"The device explains {{}} of the {self._effort} where it slides"

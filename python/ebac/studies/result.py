@@ -257,7 +257,11 @@ def _why(run: dict[str, Any]) -> str:
     swing, away = 1e3 * run["swing_m"], 1e3 * (run["rest_m"] - run["ideal_m"])
     if not run["still"]:
         return f"swings by {swing:.3g} mm"
+    reasons = []
     if not run["quiet"]:
         numbers = (run[name] for name in ("force_quiet", "force_settled_s", "jumps", "perceived"))
-        return f"force {verdicts.force_verdict(*numbers)}"
-    return f"rests {abs(away):.3g} mm {'too deep' if away > 0 else 'not deep enough'}"
+        reasons.append(f"force {verdicts.force_verdict(*numbers)}")
+    if not (run["exact_and_still"] and reasons):
+        deep = "too deep" if away > 0 else "not deep enough"
+        reasons.append(f"rests {abs(away):.3g} mm {deep}")
+    return "; ".join(reasons)
