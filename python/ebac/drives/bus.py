@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import errno
+import logging
 import time
 from collections.abc import Sequence
 from contextlib import suppress
@@ -25,6 +26,8 @@ if TYPE_CHECKING:
 TIMEOUT = 0.3
 #: SDO request for the device type (0x1000), which every node has.
 READ_DEVICE_TYPE = bytes([0x40, 0x00, 0x10, 0, 0, 0, 0, 0])
+#: canopen logs each aborted transfer, which is an exception here: shown only to who sets up logging.
+_UNHEARD = logging.NullHandler()
 
 
 @plain_constructor
@@ -45,6 +48,7 @@ class DriveBus:
     def __init__(self, bus: can.BusABC) -> None:
         import canopen
 
+        logging.getLogger("canopen").addHandler(_UNHEARD)
         self.monitor = BusMonitor()
         self._opened = time.monotonic()
         self.network = canopen.Network(bus)

@@ -36,8 +36,10 @@ def show(found: ZWidth) -> None:
 
 def _range(row: dict[str, Any]) -> str:
     """Return the least and the largest vibration over the seeds; one number where they are the same."""
+    from ebac._util import formatting
+
     ends = [row["perceived_least"], row["perceived_largest"]]
     if None in ends:
         return "ended early"
-    least, most = (f"{end:.3g}" for end in ends)
+    least, most = (f"{formatting.vibration_shown(end):.3g}" for end in ends)
     return least if least == most else f"{least} to {most}"
