@@ -1,6 +1,8 @@
 """A bus in trouble: missing drivers, interfaces that go down, answers that are none. One sentence, no traceback."""
 
 import json
+import subprocess
+import sys
 import threading
 import time
 from collections.abc import Callable
@@ -175,3 +177,10 @@ def test_a_stopped_node_is_one_sentence(open_bus: Open) -> None:
     assert ran.exit_code == 1
     assert isinstance(ran.exception, SystemExit)
     assert "node 1 did not answer" in " ".join(ran.stderr.split())
+
+
+def test_a_node_that_is_silent_is_an_exception_and_nothing_on_stderr() -> None:
+    asked = "from ebac.drives import DriveBus, NoAnswer\nwith DriveBus.open(interface='ebac', channel='joystick') as bus:\n"
+    asked += "  try: bus.drive(7).read('statusword')\n  except NoAnswer: print('no answer')"
+    done = subprocess.run([sys.executable, "-c", asked], capture_output=True, text=True, timeout=60)
+    assert (done.stdout, done.stderr) == ("no answer\n", "")
