@@ -180,7 +180,13 @@ def test_a_stopped_node_is_one_sentence(open_bus: Open) -> None:
 
 
 def test_a_node_that_is_silent_is_an_exception_and_nothing_on_stderr() -> None:
-    asked = "from ebac.drives import DriveBus, NoAnswer\nwith DriveBus.open(interface='ebac', channel='joystick') as bus:\n"
-    asked += "  try: bus.drive(7).read('statusword')\n  except NoAnswer: print('no answer')"
+    asked = """
+from ebac.drives import DriveBus, NoAnswer
+with DriveBus.open(interface="ebac", channel="joystick") as bus:
+    try:
+        bus.drive(7).read("statusword")
+    except NoAnswer:
+        print("no answer")
+"""
     done = subprocess.run([sys.executable, "-c", asked], capture_output=True, text=True, timeout=60)
     assert (done.stdout, done.stderr) == ("no answer\n", "")
