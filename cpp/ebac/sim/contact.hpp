@@ -91,7 +91,8 @@ struct WallContact {
           "applied force, peak to peak, after position and force have settled"},
         F{"ripple_rms", &WallContact::ripple_rms, "N",
           "the same, root mean square around its mean"},
-        F{"ripple_high", &WallContact::ripple_high, "N", "force above 20 Hz once it has rung down, root mean square"},
+        F{"ripple_high", &WallContact::ripple_high, "N",
+          "force above 20 Hz once it has rung down, root mean square"},
         F{"jumps", &WallContact::jumps, "1",
           "changes of the applied force by more than 0.2 N from one tick to the next, after the "
           "position has settled"},
