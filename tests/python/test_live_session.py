@@ -61,7 +61,8 @@ def test_law_world_and_delay_change_while_the_loop_runs(session: Session) -> Non
         {"world": "sphere"},
     ):
         assert session.change(**change) is False
-        time.sleep(0.15)
+        acts = run.ticks + 150
+        until(session, lambda at=acts: run.ticks > at)
     assert session.run is run
     assert session.starts == 1
     assert run.law.name == "eba"
