@@ -258,8 +258,8 @@ def _unusual(result: ArmResult) -> Iterator[str]:
 
 
 def _late(result: ArmResult) -> Iterator[str]:
-    """Give a force or target that was late."""
-    if result.late and not result.flip:
+    """Give a force or target that was late; of a hand that explains nothing, something else is wrong first."""
+    if result.late and not result.flip and result.explained >= 0:
         p = result.parameters
         other = ", ".join(
             f"{name} = {float(result.late.values[p.names.index(name)]):.4g} {e.unit} instead of {e.value:.4g}"
