@@ -534,3 +534,14 @@ def test_the_row_is_the_documented_one(run: Any) -> None:
         "still", "force_quiet", "quiet", "touched_at_rest", "drawn_J", "impact_share",
     ]  # fmt: skip
     assert json.loads(json.dumps(row)) == row
+
+
+@pytest.mark.parametrize("noise", [0.0, 0.03])
+@pytest.mark.parametrize("stiffness", [10e3, 20e3])
+def test_the_force_above_20_hz_is_a_part_of_its_ripple(noise: float, stiffness: float) -> None:
+    """The ring of the filter after the impact was counted, and the part was larger than the whole."""
+    device = ebac.Device(sensor=ebac.ForceSensor(noise=noise))
+    scenario = ebac.Scenario(device=device, environment=ebac.Wall(stiffness=stiffness))
+    row = ebac.contact(ebac.simulate(scenario, "ebac"))
+    assert row.ripple_high_N is not None
+    assert 0 < row.ripple_high_N < row.ripple_rms_N
