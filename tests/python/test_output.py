@@ -58,6 +58,22 @@ def test_a_wide_table_is_printed_in_parts_with_the_names_of_its_rows(
     assert len(lines) == len(laws) * (1 if width == 200 else shown.count("condition"))
 
 
+def test_gaps_are_narrow_before_a_table_is_printed_in_parts(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def lines(width: int) -> list[str]:
+        monkeypatch.setenv("COLUMNS", str(width))
+        grid = output.table(["law", *(f"number-{i}" for i in range(6))], numbers=range(1, 7))
+        grid.add_row("ebac", *(f"0.12345{i}" for i in range(6)))
+        output.show(grid)
+        return [line.strip() for line in capsys.readouterr().out.splitlines() if "ebac" in line]
+
+    cells = ["ebac", *(f"0.12345{i}" for i in range(6))]
+    assert lines(66) == ["  ".join(cells)]
+    assert lines(65) == lines(60) == [" ".join(cells)]
+    assert len(lines(59)) == 2
+
+
 def test_the_runs_that_resume_needs_are_listed(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -13,6 +13,7 @@ from typer.testing import CliRunner
 import ebac
 from ebac import CONDITIONS, Condition, Operators, Study, study
 from ebac.cli import app
+from ebac.cli.studies import study_results
 from ebac.studies import GROUPS
 from ebac.studies import scenario_changes as to
 from ebac.studies.conditions import conditions as find
@@ -21,7 +22,7 @@ from ebac.studies.study import ideal_contacts
 FEW = Operators.grid(mass=[0.15], damping=[2, 4, 6], stiffness=[300], target=[0.04])  # 3 hands
 ROW = [
     "law", "condition", "hands", "good", "exact_and_still", "settled_in_time", "least_energy_J", "most_drawn_J",
-    "median_settled_s", "ideal_good", "least_rest_power_W", "force_quiet", "median_impact_share",
+    "median_settled_s", "ideal_good", "least_rest_power_W", "force_quiet", "median_impact_share", "ended_early",
 ]  # fmt: skip
 
 
@@ -63,6 +64,31 @@ def test_the_command_does_not_call_good_what_it_does_not_judge() -> None:
         in said
     )
     assert "hand is good" not in said
+
+
+class Broken:
+    """A law that gives no number from 1 mm inside the wall on."""
+
+    name = "broken"
+
+    def step(self, port: ebac.Port) -> float:
+        return float("nan") if port.f_env > 10 else port.f_env
+
+    def reset(self) -> None:
+        """Do nothing: it has no memory."""
+
+
+def test_runs_that_end_early_are_counted_and_are_a_column_only_then(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("COLUMNS", "200")
+    both = study(FEW, {"broken": Broken(), "ebac": "ebac"})
+    assert [row.ended_early for row in both.rows] == [3, 0]
+    study_results.show(both, files=False)
+    said = " ".join(capsys.readouterr().out.split())
+    assert "ended early: by a fault, or diverged" in said
+    study_results.show(study(FEW, ["ebac"]), files=False)
+    assert "ended early" not in capsys.readouterr().out
 
 
 def test_what_never_rests_is_neither_good_nor_bad(few: Study) -> None:

@@ -11,6 +11,8 @@ if TYPE_CHECKING:
 
 #: A column with longer cells is prose, which may wrap; it gets at least so many characters.
 PROSE = 26
+#: Characters between two columns, and where a table would not fit otherwise.
+GAP, NARROW = 2, 1
 
 
 def table(headings: Sequence[str], *, numbers: Sequence[int] = ()) -> Table:
@@ -18,7 +20,8 @@ def table(headings: Sequence[str], *, numbers: Sequence[int] = ()) -> Table:
     from rich import box
     from rich.table import Table
 
-    grid = Table(box=box.SIMPLE_HEAD, pad_edge=False, padding=(0, 1, 0, 0), header_style="bold")
+    padding = (0, GAP - NARROW, 0, 0)
+    grid = Table(box=box.SIMPLE_HEAD, pad_edge=False, padding=padding, header_style="bold")
     for i, heading in enumerate(headings):
         justify = "right" if i in numbers else "left"
         grid.add_column(heading, justify=justify, overflow="fold")  # type: ignore[arg-type]
@@ -33,22 +36,26 @@ def filled(grid: Table) -> Table:
 
 
 def show(grid: Table) -> None:
-    """Print a table, in parts where it is wider than the screen."""
+    """Print a table; one wider than the screen with narrow gaps, and in parts where that is not enough."""
     from rich.console import Console
 
     screen = Console(highlight=False)
     every = list(range(len(grid.columns)))
     least = [_least(column) for column in grid.columns]
-    parts = _parts(grid, least, screen.width) if _width(least) > screen.width else [every]
+    gap, parts = GAP, _parts(grid, least, screen.width, GAP)
+    narrow = _parts(grid, least, screen.width, NARROW)
+    if len(narrow) < len(parts):
+        gap, parts = NARROW, narrow
+        grid.padding = 0
     for part in parts:
         shown = grid if part == every else _part(grid, part)
-        _spread(shown, [least[i] for i in part], screen.width)
+        _spread(shown, [least[i] for i in part], screen.width, gap)
         screen.print(shown)
 
 
-def _spread(grid: Table, least: list[int], room: int) -> None:
+def _spread(grid: Table, least: list[int], room: int, gap: int) -> None:
     """Set the widths of the columns: as wide as their cells where there is room, prose last."""
-    spare = max(0, room - _width(least))
+    spare = max(0, room - _width(least, gap))
     order = sorted(range(len(least)), key=lambda i: _widest(grid.columns[i]) > PROSE)
     for left, i in zip(range(len(order), 0, -1), order, strict=True):
         column = grid.columns[i]
@@ -59,14 +66,16 @@ def _spread(grid: Table, least: list[int], room: int) -> None:
         spare -= more
 
 
-def _parts(grid: Table, least: list[int], room: int) -> list[list[int]]:
+def _parts(grid: Table, least: list[int], room: int, gap: int) -> list[list[int]]:
     """Return the columns of each part: those that name a row, and as many others as fit."""
+    if _width(least, gap) <= room:
+        return [list(range(len(least)))]
     names = _names(grid)
-    if _width(least[:names]) + max(least[names:], default=0) + 2 > room:
+    if _width([*least[:names], max(least[names:], default=0)], gap) > room:
         names = 1
     parts = [list(range(names))]
     for i in range(names, len(least)):
-        if len(parts[-1]) > names and _width([least[j] for j in (*parts[-1], i)]) > room:
+        if len(parts[-1]) > names and _width([least[j] for j in (*parts[-1], i)], gap) > room:
             parts.append(list(range(names)))
         parts[-1].append(i)
     return parts
@@ -82,6 +91,7 @@ def _part(grid: Table, part: list[int]) -> Table:
     """Return a table of some columns; a name that stands for several rows is repeated in each."""
     numbers = [i for i, place in enumerate(part) if grid.columns[place].justify == "right"]
     new = table([str(grid.columns[i].header) for i in part], numbers=numbers)
+    new.padding = grid.padding
     cells = [list(grid.columns[i].cells) for i in part]
     for y, row in enumerate(grid.rows):
         if y and not _text(cells[0][y]).plain:
@@ -90,9 +100,9 @@ def _part(grid: Table, part: list[int]) -> Table:
     return new
 
 
-def _width(columns: Sequence[int]) -> int:
+def _width(columns: Sequence[int], gap: int) -> int:
     """Return the width of a table whose columns have these widths."""
-    return sum(columns) + 2 * len(columns)
+    return sum(columns) + gap * (len(columns) - 1) + 2  # an empty column at either side
 
 
 def _least(column: Column) -> int:

@@ -63,6 +63,8 @@ class StudyRow:
         Hands for which the force is quiet, see `Contact`; None where the condition has no point of rest.
     median_impact_share : float or None
         Median share of the wall's stiffness that a hand meets at its deepest position, `Contact.impact_share`.
+    ended_early : int
+        Runs that a fault ended, or that diverged: the other numbers are of the time until then.
     """
 
     law: str
@@ -78,6 +80,7 @@ class StudyRow:
     least_rest_power_W: float | None = None
     force_quiet: int | None = None
     median_impact_share: float | None = None
+    ended_early: int = 0
 
     def row(self) -> dict[str, Any]:
         """Return the documented row of `ebac study --json`."""
@@ -150,6 +153,7 @@ class Study:
             least_rest_power_W=_of(np.min, part["rest_power_W"]),
             force_quiet=int(part["force_quiet"].sum()) if rests else None,
             median_impact_share=_of(np.median, part["impact_share"]),
+            ended_early=int(_ended_early(part).sum()),
         )
 
     @cached_property
@@ -169,8 +173,9 @@ class Study:
 
     def _failures(self) -> Iterator[Failure]:
         c = self.columns
-        stopped = c["diverged"] | (c["fault"] != 0)
-        for i in np.flatnonzero((np.isfinite(c["ideal_m"]) & ~c["good"]) | stopped).tolist():
+        for i in np.flatnonzero(
+            (np.isfinite(c["ideal_m"]) & ~c["good"]) | _ended_early(c)
+        ).tolist():
             operator = int(c["operator"][i])
             yield Failure(
                 run=i,
@@ -241,6 +246,11 @@ class Study:
         """
         require_path(path, "Study.save")
         row_files.save(path, self.to_json(), self._table())
+
+
+def _ended_early(columns: Columns) -> NDArray[np.bool_]:
+    early: NDArray[np.bool_] = columns["diverged"] | (columns["fault"] != 0)
+    return early
 
 
 def _of(measure: Any, values: NDArray[np.float64]) -> float | None:

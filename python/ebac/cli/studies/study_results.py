@@ -79,6 +79,7 @@ def show(study: Study, *, files: bool) -> None:
         "power at rest",
         "settled",
         "stiffness on impact",
+        "ended early",
     ]
     grid = output.table(headings, numbers=range(2, len(headings)))
     last = ""
@@ -99,15 +100,21 @@ def show(study: Study, *, files: bool) -> None:
             formatting.quantity(row.least_rest_power_W, "W"),
             formatting.quantity(row.median_settled_s, "s", none="never"),
             formatting.quantity(row.median_impact_share, "share"),
+            f"[red]{row.ended_early}[/]" if row.ended_early else "",
         )
         last = row.condition
-    output.show(grid)
+    output.show(output.filled(grid))
     _show_failures(study, files=files)
-    output.say(
+    words = {
         "ideal wall good: hands that would be good at an ideal wall, - where that is not known, as for a hand with a "
-        "model of its own; power at rest: the lowest mean rate of the port energy while a hand rests for 20 s and "
-        "more, below 0 it is drawn; settled, stiffness on impact: medians. `ebac study --help` defines the rest."
-    )
+        "model of its own": any(row.ideal_good is not None for row in study.rows),
+        "power at rest: the lowest mean rate of the port energy while a hand rests for 20 s and more, below 0 it is "
+        "drawn": any(row.least_rest_power_W is not None for row in study.rows),
+        "settled, stiffness on impact: medians": True,
+        "ended early: by a fault, or diverged": any(row.ended_early for row in study.rows),
+    }
+    meant = "; ".join(word for word, shown in words.items() if shown)
+    output.say(f"{meant}. `ebac study --help` defines the rest.")
     output.say("Simulated, not measured.", style="bold")
 
 
