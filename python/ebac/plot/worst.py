@@ -121,18 +121,18 @@ def _pull(ax: Axes, trace: Trace, found: Worst) -> None:
 
 def _energy(ax: Axes, trace: Trace, found: Worst) -> None:
     t = trace["t"]
-    true = 1e3 * trace["true.energy"].reshape(len(trace), -1).sum(axis=1)
-    line(ax, t, true, color=colour(found.law), lw=1.6, label="port energy")
-    deepest = min(float(true.min()), -1e3 * (found.reserve or 0.0), -0.5)
-    most = float(true.max())
+    true = trace["true.energy"].reshape(len(trace), -1).sum(axis=1)
+    deepest, most = min(float(true.min()), -(found.reserve or 0.0), -0.5e-3), float(true.max())
+    factor, unit = (1e3, "mJ") if deepest > -1 else (1.0, "J")
+    line(ax, t, factor * true, color=colour(found.law), lw=1.6, label="port energy")
     for name in ("law.energy", "law.account"):
         if name in trace:
-            account = 1e3 * trace.axis(name, 0)
-            line(ax, t, account, color="black", lw=0.8, label="account of the law")
+            account = trace.axis(name, 0)
+            line(ax, t, factor * account, color="black", lw=0.8, label="account of the law")
             most = max(most, float(account.max()))
     if found.reserve is not None:
-        ax.axhline(-1e3 * found.reserve, color="#d55e00", lw=1, ls="--", label="reserve")
+        ax.axhline(-factor * found.reserve, color="#d55e00", lw=1, ls="--", label="reserve")
     ax.axhline(0, color="0.35", lw=1)
     # what is drawn is judged: what else flows in or is held may go far beyond
-    ax.set_ylim(1.2 * deepest, -0.15 * deepest + min(most, -2 * deepest))
-    dress(ax, "energy [mJ]")
+    ax.set_ylim(factor * 1.2 * deepest, factor * (-0.15 * deepest + min(most, -2 * deepest)))
+    dress(ax, f"energy [{unit}]")
