@@ -94,6 +94,17 @@ def test_a_hand_that_waves_draws_no_more_than_a_reserve(
     assert ebac.contact(ebac.simulate(scenario, law)).most_drawn_J <= law.observed_reserve
 
 
+def test_a_slow_swing_draws_little_from_a_sensor_without_noise() -> None:
+    """An estimate that follows half a count late gave this hand 0.4 mW, of which the account saw nothing."""
+    swing = ebac.Sine(centre=4.4e-3, amplitude=4.3e-3, frequency=1.9)
+    hand = ebac.Hand(mass=1.5, damping=130, stiffness=1280, path=[swing])
+    trace = ebac.simulate(ebac.Scenario(hand=hand, observer=True, seconds=40.0), "ebac")
+    missed = trace.axis("law.energy") - trace.axis("true.energy")
+    drift = (missed[-2000:].mean() - missed[5000:7000].mean()) / 33.0
+    assert drift < 40e-6
+    assert trace.axis("true.energy").min() > -0.6e-3
+
+
 def test_a_heavy_hand_on_a_stiff_wall_is_quiet_in_force_with_fast_stiffness_alone() -> None:
     heavy = OBSERVED.replace(
         hand=ebac.Hand(mass=0.6, damping=2.0, stiffness=500.0),

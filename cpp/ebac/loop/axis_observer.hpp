@@ -32,16 +32,17 @@ namespace ebac {
 ///
 /// The encoder corrects x, u and D. A reading says little about where in its count the device is, so
 /// an innovation counts half up to one count and whole beyond, and x is kept within 1.5 counts of the
-/// reading. Where the sensor shows less noise than declared, the half shrinks with it, down to a tenth:
-/// at rest the reading changes with the swing of a hand within a count, and would keep it going. The
-/// steady Kalman gain of force noise against a reading uniform within a count has the bandwidth
-/// w = sqrt(sqrt(12) force_noise / (M count)). 0.4 of it is used in motion, 0.3 at rest, where an edge
-/// of a count would be felt as a click; D is slower than x and u, by far so at rest. All of w is used
-/// where the force turns out to be noisier than declared, and where the readings go on contradicting
-/// the model: friction that holds the device is a force that D must learn, or x would rest at the end
-/// of its counts, with a velocity that is none. The prediction takes the force of the hand to change as
-/// it did in the last 12 ms, and at rest without the noise it shows: a lag in that force of 1 N would
-/// be 4 m/s^2. v is kept within what two readings prove of it.
+/// reading. Where the sensor shows less noise than declared, the half shrinks with it, down to a tenth,
+/// at rest: the reading changes with the swing of a hand within a count, and would keep it going. In
+/// motion it does not: an error of the model by a millinewton would take x through the whole count, and
+/// a hand that swings slowly would draw 0.4 mW. The steady Kalman gain of force noise against a reading
+/// uniform within a count has the bandwidth w = sqrt(sqrt(12) force_noise / (M count)). 0.4 of it is
+/// used in motion, 0.3 at rest, where an edge of a count would be felt as a click; D is slower than x
+/// and u, by far so at rest. All of w is used where the force turns out to be noisier than declared, and
+/// where the readings go on contradicting the model: friction that holds the device is a force that D
+/// must learn, or x would rest at the end of its counts, with a velocity that is none. The prediction
+/// takes the force of the hand to change as it did in the last 12 ms, and at rest without the noise it
+/// shows: a lag in that force of 1 N would be 4 m/s^2. v is kept within what two readings prove of it.
 class AxisObserver {
  public:
   struct Motion {
@@ -158,6 +159,7 @@ class AxisObserver {
   static constexpr double kDithered =
       0.09;                                // 1, (w dt)^2 from which noise moves x over whole counts
   static constexpr double kMoving = 0.01;  // m/s, from here on the device moves
+  static constexpr double kSlow = 2.5e-3;  // m/s, from here on a quiet sensor counts as any other
   static constexpr double kRests = 0.05;   // s, until it counts as resting
   static constexpr double kCalm = 12e-3;   // s, over which the hand's force is smoothed
   static constexpr double kNoise = 1.5;    // standard deviations that smoothing takes away at most
@@ -220,10 +222,11 @@ class AxisObserver {
     const double off = reading - x_;
     const double within = std::clamp(off, -count, count);
     const double noisy = std::clamp(2.5 * rough_ - 0.5, 0.0, 1.0);
-    const double share = within_ * std::max(kLeastShare, noise_ * per_noise_);
-    const double innovation = off - (1 - noisy) * (1 - share) * within;
     contradicted_ += ((std::abs(off) > 1.5 * count ? 1.0 : 0.0) - contradicted_) * forget_;
     moving_ = std::max(std::min(1.0, std::abs(u_) * (1 / kMoving)), moving_ * resting_);
+    const double least = std::clamp(moving_ * (kMoving / kSlow), kLeastShare, 1.0);
+    const double share = within_ * std::max(least, noise_ * per_noise_);
+    const double innovation = off - (1 - noisy) * (1 - share) * within;
     ObserverGains gain = at_rest_.towards(in_motion_, moving_);
     const double wrong = std::max(noisy, std::min(1.0, kLearn * (contradicted_ - kBears)));
     if (wrong > 0) gain = gain.towards(full_, wrong);
