@@ -175,7 +175,7 @@ class Variant:
         )
 
 
-AnyLaw: TypeAlias = str | type[CoreLaw] | CoreLaw | PythonLaw | Variant
+AnyLaw: TypeAlias = str | type[CoreLaw] | type[PythonLaw] | CoreLaw | PythonLaw | Variant
 
 
 def design(
@@ -187,7 +187,8 @@ def design(
     ----------
     law : str, law class, Variant, law or PythonLaw
         A name of `LAWS`, a class of the core or a `Variant` is designed from `device` and `timing`, never from the
-        wall or the hand. A finished law comes back as it is. "tca-damped-tuned" is `tca-damped` with what
+        wall or the hand; so is a class in Python that has a classmethod `design(facts, timing)`, `facts` being a
+        `DeviceFacts`. A finished law comes back as it is. "tca-damped-tuned" is `tca-damped` with what
         `ebac tune` found for the reference device and the nearest delay; "tca-damped-tuned-observer" with what it found
         for a law that acts on the observer's estimate, as it then does.
     device : Device or DeviceFacts
@@ -215,14 +216,16 @@ def design(
     if isinstance(law, Variant):
         return design(law.law, device, timing, **{**law.changes, **changes})
     fitted = device.sensor.fitted if isinstance(device, Device) else device.force_sensor
-    if isinstance(law, (str, type)):
+    if isinstance(law, type) and not hasattr(law, "_simulate") and hasattr(law, "design"):
+        facts = device.facts if isinstance(device, Device) else device
+        made: CoreLaw | PythonLaw = checked(law.design(facts, timing, **changes))
+    elif isinstance(law, (str, type)):
         if isinstance(law, str) and law in tuned_laws():
             changes = {**tuned(law, timing.delay)[1], **changes}
         kind = _class_of(law)
         names = [field.name for field in kind.fields()]
         if not fitted:
             changes = {**{gain: 0.0 for gain in FORCE_GAINS if gain in names}, **changes}
-        made: CoreLaw | PythonLaw
         try:
             made = kind.design(device, timing, **changes)
         except ValueError as error:
@@ -263,7 +266,10 @@ def _class_of(law: str | type) -> type[CoreLaw]:
             raise unknown_name("law", law, [*LAWS, *tuned_laws()])
         return LAWS[name]
     if not hasattr(law, "_simulate"):
-        raise TypeError(f"{law.__name__} is a class: give an instance of it, {law.__name__}(...)")
+        name = law.__name__
+        raise TypeError(
+            f"{name} is a class: give an instance of it, {name}(...), or give it a classmethod design(facts, timing)"
+        )
     return cast("type[CoreLaw]", law)
 
 
@@ -313,7 +319,7 @@ def changed(law: AnyLaw, **changes: Any) -> AnyLaw:
     if isinstance(law, Variant):
         return Variant(law.law, {**law.changes, **changes})
     if isinstance(law, (str, type)):
-        return Variant(law, changes)
+        return Variant(cast("str | type[CoreLaw]", law), changes)
     if is_core_law(law):
         return law.replace(**changes)
     if not hasattr(law, "__dataclass_fields__"):
@@ -340,7 +346,10 @@ def law_name(law: AnyLaw) -> str:
     law : str, type or law
         A name, a law or a `Variant`.
     """
-    return law if isinstance(law, str) else str(getattr(law, "name", type(law).__name__))
+    if isinstance(law, str):
+        return law
+    kind = law if isinstance(law, type) else type(law)
+    return str(getattr(law, "name", kind.__name__))
 
 
 def shown_value(value: bool | float) -> str:

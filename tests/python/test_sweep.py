@@ -7,6 +7,7 @@ import signal
 import subprocess
 import sys
 import time
+import types
 from concurrent.futures import Executor, Future, ProcessPoolExecutor, ThreadPoolExecutor
 from multiprocessing import get_context
 from pathlib import Path
@@ -154,6 +155,35 @@ def test_laws_can_be_designed_for_another_device() -> None:
         sweep(one, "ebac", designed_for=told[:1])
 
 
+class Designed(Spring):
+    """A spring that is designed: its share is the delay that it is told."""
+
+    name = "designed"
+
+    @classmethod
+    def design(cls, facts: ebac.DeviceFacts, timing: ebac.Timing) -> "Designed":
+        assert facts.mass == ebac.Device().mass
+        return cls(0.1 * timing.delay)
+
+
+def test_a_class_in_python_is_designed_for_each_scenario() -> None:
+    few = [s.replace(timing=ebac.Timing(delay=delay)) for s in scenarios(1) for delay in (1, 3)]
+    found = sweep(few, Designed)
+    assert set(found["law"]) == {"designed"}
+    by_hand = [sweep([one], Spring(0.1 * one.timing.delay)) for one in few]
+    np.testing.assert_array_equal(found["rest_m"], [one["rest_m"][0] for one in by_hand])
+    assert np.isclose(
+        ebac.simulate(few[1], Designed)["f_cmd"][-1],
+        0.3 * ebac.simulate(few[1], Designed)["f_env"][-1],
+    )
+
+
+def test_names_of_laws_may_be_numbers() -> None:
+    found = sweep(scenarios(1), {0.25: Spring(0.25), 0.5: Spring(0.5)})  # type: ignore[dict-item]
+    assert list(found["law"]) == ["0.25", "0.5"]
+    assert "0.25" in str(found)
+
+
 class Away(Spring):
     name = "away"
 
@@ -288,6 +318,41 @@ def test_a_law_in_python_is_known_again_by_its_values(tmp_path: Path) -> None:
     assert_same_bits(first, sweep(scenarios(2, seconds=0.1), Spring(0.5), out=out))
     with pytest.raises(ValueError, match="holds another sweep"):
         sweep(scenarios(2, seconds=0.1), Spring(0.6), out=out)
+
+
+EDITED = """
+import ebac
+SHARE = {share}
+def helped(port):
+    return SHARE * port.f_env
+class Mine:
+    name = "mine"
+    def step(self, port):
+        return {body}
+    def reset(self):
+        pass
+"""
+
+
+@pytest.mark.parametrize(
+    "edit", [{"share": 0.6}, {"body": "-helped(port)"}, {"body": "helped(port) - 2.0"}]
+)
+def test_a_law_whose_code_was_edited_is_another_law(
+    edit: dict[str, Any], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Its results were taken for those of the code before."""
+
+    def law(**changes: Any) -> Any:
+        module = types.ModuleType("edited")
+        monkeypatch.setitem(sys.modules, "edited", module)
+        exec(EDITED.format(**{"share": 0.5, "body": "helped(port)"} | changes), vars(module))
+        return module.Mine()
+
+    few = scenarios(2, seconds=0.1)
+    first = sweep(few, law(), out=tmp_path)
+    assert_same_bits(first, sweep(few, law(), out=tmp_path))
+    with pytest.raises(ValueError, match=r"holds another sweep.*resume=False"):
+        sweep(few, law(**edit), out=tmp_path)
 
 
 # --- the result ---

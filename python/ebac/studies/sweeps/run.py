@@ -74,7 +74,8 @@ def sweep(
         Runs that are written or sent at once; default 500, fewer under an executor when there are few.
     out : path, optional
         Folder to which each bundle is written as soon as it is done. A sweep that was killed and is called again
-        continues there and gives the same bits.
+        continues there and gives the same bits. One with another law is refused, also where only the code of a law
+        in Python has changed (what it uses of other modules is not looked at).
     resume : bool
         False starts anew in a folder that holds a sweep.
     progress : callable, optional
@@ -151,7 +152,7 @@ def name_laws(laws: Laws) -> dict[str, AnyLaw]:
         When there is none, or two go by one name.
     """
     if isinstance(laws, Mapping):
-        named = dict(laws)
+        named = {str(name): law for name, law in laws.items()}
     else:
         given: Sequence[Any] = laws if isinstance(laws, (list, tuple)) else [laws]
         names = [law_name(law) for law in given]

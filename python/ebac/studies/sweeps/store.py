@@ -11,13 +11,14 @@ from typing import Any
 import numpy as np
 
 from ebac._core import RunLimits
+from ebac._util.code_print import code_print
 from ebac.studies.sweeps.measure import Columns, Run, empty
 
 MANIFEST = "sweep.json"
 
 
 def fingerprint(runs: Sequence[Run], limits: RunLimits) -> str:
-    """Return a hash of all that decides the result: the version, the columns, every scenario, every law."""
+    """Return a hash of all that decides the result: version, columns, every scenario, every law with its code."""
     from ebac import __version__
 
     digest = hashlib.sha256(f"{__version__} {limits!r} {list(empty(0))}".encode())
@@ -27,17 +28,23 @@ def fingerprint(runs: Sequence[Run], limits: RunLimits) -> str:
         if id(law) not in laws:
             laws[id(law)] = _describe(law)
         if id(scenario) not in scenarios:
-            scenarios[id(scenario)] = repr(scenario)
+            scenarios[id(scenario)] = f"{scenario!r} {_code(scenario.hand.model)}"
         digest.update(f"{scenarios[id(scenario)]} {laws[id(law)]}\n".encode())
     return digest.hexdigest()
 
 
 def _describe(law: Any) -> str:
     if " object at 0x" not in repr(law):
-        return repr(law)
+        return f"{law!r} {_code(law)}"
     # The default repr holds an address, which is another one after a restart.
     values = sorted(getattr(law, "__dict__", {}).items())
-    return f"{type(law).__module__}.{type(law).__qualname__} {values!r}"
+    return f"{type(law).__module__}.{type(law).__qualname__} {values!r} {_code(law)}"
+
+
+def _code(part: Any) -> str:
+    """Return the code of a law or hand of a user's own, which may be edited between two calls."""
+    kind = type(part)
+    return "" if kind.__module__.partition(".")[0] in ("builtins", "ebac") else code_print(kind)
 
 
 class Store:

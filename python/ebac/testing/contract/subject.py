@@ -74,14 +74,11 @@ class Subject:
 
 
 def _made(given: Any, device: Device | DeviceFacts, timing: Timing) -> Any:
-    if isinstance(given, Variant) or (isinstance(given, type) and hasattr(given, "_simulate")):
+    if isinstance(given, Variant) or (isinstance(given, type) and hasattr(given, "design")):
         return design(given, device, timing)
     if is_core_law(given):
         return given.replace(timing=timing)
-    if isinstance(given, type) and hasattr(given, "design"):
-        facts = device.facts if isinstance(device, Device) else device
-        law = given.design(facts, timing)
-    elif isinstance(given, PythonLaw) and not isinstance(given, type):
+    if isinstance(given, PythonLaw) and not isinstance(given, type):
         law = copy.deepcopy(given)
     elif callable(given):
         try:
