@@ -28,6 +28,7 @@ import rival_tables as rivals
 import sensor_limit_tables as sensors
 import story_tables as story
 import tracking_tables as tracked
+import world_tables as worlds
 from printed import Printed, names, put
 
 DOCS = Path(__file__).parents[1]
@@ -74,6 +75,9 @@ TABLES: dict[str, Callable[[Printed], str]] = {
     "limits-motor": sensors.motor,
     "outliers": tracked.outliers,
     "gastroscopy": gastroscopy.runs,
+    "engines": worlds.engines,
+    "shapes-soft": worlds.soft_shapes,
+    "shapes-stiff": worlds.stiff_shapes,
     "speed": laws.speed,
 }
 #: Left out unless asked for: what `speed` says depends on what else the machine does; the others take long.
