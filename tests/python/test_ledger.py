@@ -1,7 +1,14 @@
 """The energy account of EBAC: what it charges, what it says when it runs out, and that it comes back."""
 
+import math
+from itertools import pairwise
+from typing import Any
+
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from numpy.typing import NDArray
 
 import ebac
 
@@ -102,3 +109,47 @@ def test_a_resonance_that_it_drives_softens_the_damper() -> None:
     plain, softer = (ebac.simulate(scenario, one) for one in ("ebac", law))
     damping = [trace["law.injected"].max() / trace["v"].max() for trace in (plain, softer)]
     assert 0.4 * damping[0] < damping[1] < 0.7 * damping[0]
+
+
+# --- an account of readings that is proven ---
+
+COUNT = ebac.DeviceFacts().count
+
+
+def account_and_truth(law: Any, x: NDArray[np.float64], delay: int) -> tuple[float, float, float]:
+    """Give a law the readings of a motion; return its account, the energy of the port [J] and the largest force [N]."""
+    dt, damping, wall = 1e-3, ebac.DeviceFacts().damping, 10e3
+    acting, reading, energy, most = [0.0] * (delay + 1), 0.0, 0.0, 0.0
+    for before, now in pairwise(x.tolist()):
+        force = acting.pop(0)
+        most = max(most, abs(force))
+        energy += force * (now - before) + damping / dt * (now - before) ** 2
+        last, reading = reading, COUNT * math.floor(now / COUNT)
+        port = ebac.Port(
+            x=reading, dx=reading - last, dt=dt, f_env=wall * max(reading, 0), f_applied=force
+        )
+        acting.append(law.step(port))
+    return law.state.account, energy, most
+
+
+@pytest.mark.parametrize("law", ["eba-account", "force-bounding"])
+@pytest.mark.parametrize("delay", [0, 1, 2, 3])
+@given(
+    share=st.floats(0.01, 0.4),
+    deep=st.integers(5, 60),
+    shift=st.integers(0, 3),
+    period=st.integers(1, 5),
+)
+@settings(max_examples=10, deadline=None)
+def test_a_dither_across_an_edge_earns_nothing(
+    law: str, delay: int, share: float, deep: int, shift: int, period: int
+) -> None:
+    """One in step with the delay meets more force inwards than outwards: the sum over readings grew without end."""
+    edge = deep * COUNT
+    press = 3 * edge * np.minimum(np.arange(300) / 10, 1)
+    dither = np.where((np.arange(4000) + shift) % period < period / 2, share, -share) * COUNT
+    x = np.r_[press, np.linspace(press[-1], edge, 1500), edge + dither]
+    facts = ebac.DeviceFacts(current_lag=0)
+    made = ebac.design(law, facts, ebac.Timing(delay=delay))
+    account, energy, most = account_and_truth(made, x, delay)
+    assert account <= energy + COUNT * most

@@ -27,7 +27,7 @@ class AffordableForce {
 
   void take(double f_applied, double dx, double dt) EBAC_RT {
     if (dt != dt_) ledger_.set_tick(dt_ = dt);
-    ledger_.take(f_applied, dx, dx);
+    ledger_.take_proven(f_applied, dx);
   }
 
   double largest() const EBAC_RT {

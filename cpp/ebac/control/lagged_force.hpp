@@ -27,6 +27,7 @@ class LaggedForce {
     left_ = Transient(lag_, dt);
     later_ = left_.end / (1 - left_.end);
     moment_ = lag_ * (left_.mean - left_.end) - 0.5 * dt * left_.mean;
+    spread_ = 0.5 * lag_ * (1 - left_.end * left_.end) - dt * left_.mean * left_.mean;
   }
 
   /// Holds `command` for one interval; returns the mean force over it.
@@ -39,6 +40,12 @@ class LaggedForce {
   /// Moment of the force about the middle of an interval that holds `command`, the integral of f (t/T - 1/2) [N s]:
   /// over a velocity that changes by c the force does c times this more than its mean does.
   double moment(double command) const EBAC_RT { return (force_ - command) * moment_; }
+
+  /// Integral of (f - mean)^2 over an interval that holds `command` [N^2 s]: with a damping b, a velocity that
+  /// follows it makes the force give out at most a fourth of it over b more than its mean does.
+  double spread(double command) const EBAC_RT {
+    return (force_ - command) * (force_ - command) * spread_;
+  }
 
   double force() const EBAC_RT { return force_; }  // N, now
   const Transient& left() const EBAC_RT { return left_; }
@@ -56,6 +63,7 @@ class LaggedForce {
   double ticks_ = 0;
   double later_ = 0;
   double moment_ = 0;  // s
+  double spread_ = 0;  // s
 };
 
 }  // namespace ebac
