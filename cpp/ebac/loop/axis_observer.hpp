@@ -160,6 +160,7 @@ class AxisObserver {
       0.09;                                // 1, (w dt)^2 from which noise moves x over whole counts
   static constexpr double kMoving = 0.01;  // m/s, from here on the device moves
   static constexpr double kSlow = 2.5e-3;  // m/s, from here on a quiet sensor counts as any other
+  static constexpr double kQuiet = 0.5;    // of the declared noise: less is a quiet sensor
   static constexpr double kRests = 0.05;   // s, until it counts as resting
   static constexpr double kCalm = 12e-3;   // s, over which the hand's force is smoothed
   static constexpr double kNoise = 1.5;    // standard deviations that smoothing takes away at most
@@ -167,11 +168,11 @@ class AxisObserver {
   static constexpr double kRough = 0.1;  // s, memory of such differences
   static constexpr double kHigh = 4;     // standard deviations: a larger difference counts as this
   static constexpr double kBends = 0.2;  // s, over which their sizes are averaged
-  static constexpr double kOfBends = 0.56;    // noise of that mean; 0.51 for one that is normal
-  static constexpr double kLeastShare = 0.2;  // of the share within a count, without noise
-  static constexpr double kMemory = 0.05;     // s, of the contradictions
-  static constexpr double kBears = 0.15;      // share of ticks that may contradict
-  static constexpr double kLearn = 2;         // from here to 1/2 more, all gains rise to those of w
+  static constexpr double kOfBends = 0.56;  // noise of that mean; 0.51 for one that is normal
+  static constexpr double kLeast = 0.2;     // of the share within a count, without noise
+  static constexpr double kMemory = 0.05;   // s, of the contradictions
+  static constexpr double kBears = 0.15;    // share of ticks that may contradict
+  static constexpr double kLearn = 2;       // from here to 1/2 more, all gains rise to those of w
   static constexpr double kPatience = 3.5e-3;  // s, half a period of a cable's resonance of 140 Hz
 
   double acceleration() const EBAC_RT {
@@ -224,8 +225,10 @@ class AxisObserver {
     const double noisy = std::clamp(2.5 * rough_ - 0.5, 0.0, 1.0);
     contradicted_ += ((std::abs(off) > 1.5 * count ? 1.0 : 0.0) - contradicted_) * forget_;
     moving_ = std::max(std::min(1.0, std::abs(u_) * (1 / kMoving)), moving_ * resting_);
-    const double least = std::clamp(moving_ * (kMoving / kSlow), kLeastShare, 1.0);
-    const double share = within_ * std::max(least, noise_ * per_noise_);
+    double share = noise_ * per_noise_;
+    if (share < kQuiet)
+      share = std::max(share, std::clamp(moving_ * (kMoving / kSlow), kLeast, 1.0));
+    share *= within_;
     const double innovation = off - (1 - noisy) * (1 - share) * within;
     ObserverGains gain = at_rest_.towards(in_motion_, moving_);
     const double wrong = std::max(noisy, std::min(1.0, kLearn * (contradicted_ - kBears)));
