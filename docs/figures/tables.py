@@ -27,6 +27,7 @@ import population_tables as populations
 import rival_tables as rivals
 import sensor_limit_tables as sensors
 import story_tables as story
+import swing_tables as swinging
 import tracking_tables as tracked
 import world_tables as worlds
 from printed import Printed, names, put
@@ -64,6 +65,7 @@ TABLES: dict[str, Callable[[Printed], str]] = {
     "friction-kept": friction.kept_walls,
     "held-energy": holding.energy,
     "held-limited": holding.limited,
+    "swing-energy": swinging.energy,
     "limits-worst": limits.worst_hands,
     "limits-milliseconds": limits.milliseconds,
     "limits-counts": limits.counts,

@@ -85,7 +85,8 @@ def _show_all(rows: list[dict[str, Any]]) -> None:
         grid.add_row(row["law"], row["what"], "yes" if row["passive"] else "no", names)
     output.show(grid)
     output.say(
-        "passive: proven for every hand and every world that stands still, given true damping, delay, lag and count."
+        "passive: proven for every hand and every world that stands still, on one axis, given true damping, delay, "
+        "lag and count; on n axes the law needs sqrt(n) times the count."
     )
     output.say(f"Tuned: {', '.join(tuned_laws())}.")
     output.say(

@@ -1,0 +1,82 @@
+"""Hands that swing slowly on a wall for an hour: the energy that the account does not see."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from printed import Printed, Row, table
+
+import ebac
+from ebac._util.plural import plural
+
+#: Length of a run [s], and where the wall is [m].
+HOUR, SURFACE = 3600.0, 0.01
+
+
+@dataclass(frozen=True)
+class Swung:
+    """A hand: mass [kg], damping [N s/m], stiffness [N/m]; it pushes with mean and amplitude [N] at a frequency [Hz]."""
+
+    mass: float
+    damping: float
+    stiffness: float
+    mean: float
+    amplitude: float
+    frequency: float
+    wall: tuple[float, int] = (1e4, 1)
+
+    @property
+    def label(self) -> str:
+        """What the table calls the hand."""
+        hand = f"{self.mass:g} kg, {self.damping:g} N s/m, {self.stiffness:g} N/m"
+        return f"{hand}: {self.mean:g} ± {self.amplitude:g} N at {self.frequency:g} Hz"
+
+    @property
+    def where(self) -> str:
+        """What the table calls its wall."""
+        stiffness, delay = self.wall
+        return f"{1e-3 * stiffness:g} kN/m, {plural(delay, 'sample')}"
+
+    def drawn(self, noise: float) -> float:
+        """Return the most energy that the hand has drawn within the hour [J]."""
+        stiffness, delay = self.wall
+        pushes = ebac.Sine(
+            centre=SURFACE + self.mean / self.stiffness,
+            amplitude=self.amplitude / self.stiffness,
+            frequency=self.frequency,
+        )
+        scenario = ebac.Scenario(
+            device=ebac.Device(sensor=ebac.ForceSensor(noise=noise)),
+            hand=ebac.Hand(
+                mass=self.mass, damping=self.damping, stiffness=self.stiffness, path=[pushes]
+            ),
+            environment=ebac.Wall(stiffness=stiffness, position=SURFACE),
+            timing=ebac.Timing(delay=delay),
+            seconds=HOUR,
+        )
+        return max(0.0, -float(ebac.simulate(scenario, "ebac").axis("true.energy").min()))
+
+
+#: Those that searches found: at noise, without noise, and of hands up to 1.5 kg.
+SWINGING = (
+    Swung(10, 60, 325, 3.41, 2.99, 1.0, (1e4, 0)),
+    Swung(10, 60, 325, 3.41, 2.99, 1.0),
+    Swung(9.5, 149, 850, 6.5, 4.6, 1.55, (1e4, 2)),
+    Swung(1.5, 101, 240, 5.3, 5.1, 1.43, (2e4, 2)),
+)
+#: Standard deviations of the noise of the force sensor [N].
+NOISES = (0.0, 0.01, 0.03)
+
+
+def energy(printed: Printed) -> str:
+    """What each hand draws in an hour, with three noises of the sensor."""
+    rows = printed.kept("swung", _measure)
+    lines = [
+        [one.label, one.where, *(f"{1e3 * row[f'{noise:g} N']:.0f} mJ" for noise in NOISES)]
+        for one, row in zip(SWINGING, rows, strict=True)
+    ]
+    return table(["hand", "wall, delay", "no noise", *(f"{noise:g} N" for noise in NOISES[1:])], lines)
+
+
+def _measure() -> list[Row]:
+    return [{f"{noise:g} N": one.drawn(noise) for noise in NOISES} for one in SWINGING]
