@@ -188,7 +188,20 @@ def test_the_figure_names_a_line_only_where_there_is_one_and_has_walls_in_kilone
     figure.draw_without_rendering()
     verdicts = figure.axes[2]
     assert verdicts.get_ylabel() == "wall stiffness K [kN/m]"
-    assert "100" in [tick.get_text() for tick in verdicts.get_yticklabels()]
+    assert "50" in [tick.get_text() for tick in verdicts.get_yticklabels()]
+
+
+@pytest.mark.parametrize("ys", [(2e3, 4e3, 8e3), (1e3, 1e4, 1e5)])
+def test_every_label_of_a_wall_is_in_kilonewtons(ys: tuple[float, ...]) -> None:
+    figure = plot_map(small(ys=ys))
+    figure.draw_without_rendering()
+    axis = figure.axes[0].yaxis
+    assert all(not text.get_text() for text in axis.get_minorticklabels())
+    low, high = axis.get_view_interval()
+    labels = zip(axis.get_majorticklocs(), axis.get_majorticklabels(), strict=True)
+    shown = [(place, text.get_text()) for place, text in labels if low <= place <= high]
+    assert len(shown) >= 2
+    assert all(float(text) == pytest.approx(1e-3 * place) for place, text in shown)
 
 
 # --- ebac map ---

@@ -102,7 +102,7 @@ def _response(size: Axes, follows: Axes, result: ArmResult, recording: int) -> N
         f, np.abs(z.model(mass, damping, stiffness)), color="#009e73", label="eq. (4) as fitted"
     )
     size.set(xscale="log", yscale="log")
-    plain_decades(size)
+    plain_decades(size.xaxis)
     model = np.abs(z.model(mass, damping, stiffness))
     size.set_ylim(0.2 * model.min(), 5 * model.max())
     dress(size, "|Z| = |K0 + B0 s + M0 s²|\n[N/m]")
@@ -116,7 +116,7 @@ def _response(size: Axes, follows: Axes, result: ArmResult, recording: int) -> N
         label="above by chance in 5 % of the frequencies",
     )
     follows.set(xscale="log", ylim=(0, 1.05))
-    plain_decades(follows)
+    plain_decades(follows.xaxis)
     follows.set_xlabel("frequency [Hz]")
     dress(follows, "coherence")
     legend(follows)

@@ -8,13 +8,12 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.colors import BoundaryNorm, ListedColormap, LogNorm
 from matplotlib.figure import Figure
-from matplotlib.ticker import FuncFormatter
 
 from ebac._util import formatting
 from ebac._util.arrays import Values
 from ebac.metrics import STILL_SWING
 from ebac.plot.marks import for_law
-from ebac.plot.style import Picture, new_figure
+from ebac.plot.style import Picture, new_figure, plain_decades
 
 if TYPE_CHECKING:
     from ebac.studies.maps import MapAxis, StabilityMap
@@ -145,6 +144,4 @@ def _axis(ax: Axes, quantity: MapAxis, which: str) -> None:
     getattr(ax, f"set_{which}label")(quantity.label.replace(f"[{quantity.unit}]", unit))
     if quantity.logarithmic:
         getattr(ax, f"set_{which}scale")("log")
-    if quantity.logarithmic or kilo:
-        shown = FuncFormatter(lambda value, _: f"{value / 1000**kilo:,g}")
-        getattr(ax, f"{which}axis").set_major_formatter(shown)
+        plain_decades(getattr(ax, f"{which}axis"), 1000.0**kilo)

@@ -70,7 +70,7 @@ def _draw(found: Stiffest, abreast: int) -> Picture:
     ax = grid[0, 0]
     ax.set_ylim(-4, 104)
     ax.set_xscale("log")
-    plain_decades(ax)
+    plain_decades(ax.xaxis)
     known = [LINES[name] for name in LINES if name in found.counts]
     handles = [Line2D([], [], color="0.3", **style) for _, style in known]
     handles.append(Line2D([], [], **NEEDED))

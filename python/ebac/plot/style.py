@@ -9,9 +9,10 @@ from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.axis import Axis
 from matplotlib.colors import to_hex, to_rgb
 from matplotlib.figure import Figure
-from matplotlib.ticker import LogLocator, NullFormatter
+from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 from numpy.typing import NDArray
 
 from ebac._core import Wall
@@ -171,11 +172,11 @@ def dress(ax: Axes, ylabel: str) -> None:
     ax.spines[["top", "right"]].set_visible(False)
 
 
-def plain_decades(ax: Axes) -> None:
-    """Label the logarithmic x axis of an axes at 1, 2 and 5 of each decade, in plain numbers."""
-    ax.xaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
-    ax.xaxis.set_major_formatter("{x:g}")
-    ax.xaxis.set_minor_formatter(NullFormatter())
+def plain_decades(axis: Axis, unit: float = 1.0) -> None:
+    """Label a logarithmic axis at 1, 2 and 5 of each decade, in plain numbers of a unit."""
+    axis.set_major_locator(LogLocator(subs=(1, 2, 5)))
+    axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value / unit:g}"))
+    axis.set_minor_formatter(NullFormatter())
 
 
 def line(ax: Axes, t: Values, y: Values, **style: Any) -> None:
