@@ -149,10 +149,26 @@ def test_the_arrays_of_a_map_are_kept(tmp_path: Path) -> None:
         ({"x": "stifness"}, "did you mean 'stiffness'"),
         ({"x": "stiffness"}, "a map needs two quantities"),
         ({"base": ebac.Scenario(environment=ebac.Free())}, "needs a wall"),
+        ({"xs": [5, 2, 9]}, r"xs = \[5, 2, 9\] N s/m: must be at least two, rising"),
+        ({"ys": [1e3]}, r"ys = \[1000.0\] N/m: must be at least two, rising"),
+        ({"ys": [0, 1e3]}, r"ys = \[0, 1000.0\] N/m: must be above 0"),
+        ({"xs": []}, r"xs = \[\]: is empty"),
     ],
 )
 def test_bad_input_is_refused(changes: dict[str, Any], message: str) -> None:
     with pytest.raises(ValueError, match=message):
+        small(**changes)
+
+
+@pytest.mark.parametrize(
+    ("changes", "message"),
+    [
+        ({"xs": 0}, r"xs = 0 \(int\): must be a sequence, such as \[0\]"),
+        ({"x": "delay", "xs": [0.5, 1.5]}, "delay = 0.5: must be a whole number in samples"),
+    ],
+)
+def test_values_of_a_wrong_kind_are_refused(changes: dict[str, Any], message: str) -> None:
+    with pytest.raises(TypeError, match=message):
         small(**changes)
 
 
@@ -239,6 +255,7 @@ def test_the_command_writes_a_folder_and_continues(tmp_path: Path) -> None:
         (("stiffness",), "a map needs two quantities"),
         (("stiffness,massive",), "there are: stiffness, damping"),
         (("--x-low", "30"), "from 30 to 20 N s/m"),
+        (("Kd", "--x-high", "2.5"), "--x-high = 2.5 samples (delay): must be a whole number"),
         (("--resume", "--json"), "give it with --out"),
     ],
 )

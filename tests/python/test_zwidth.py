@@ -267,6 +267,7 @@ def test_progress_comes_to_its_end(hands: int) -> None:
     [
         ({"dampings": (5.0, 0.0)}, r"dampings = \(5.0, 0.0\) N s/m: must be at least two, rising"),
         ({"least_stiffness": 0.0}, "least_stiffness = 0.0 N/m, most_stiffness = 100000.0 N/m"),
+        ({"delays": []}, r"zwidth: delays = \[\]: is empty"),
         ({"rungs": 1}, "rungs = 1: must be at least 2"),
         ({"epsilon": -1.0}, "epsilon = -1.0 J"),
         ({"hands": -1}, r"hands = -1: must lie in \[0, 1000\]"),
@@ -280,6 +281,11 @@ def test_bad_input_is_refused(changes: dict[str, Any], message: str) -> None:
     base = changes.pop("base", None)
     with pytest.raises(ValueError, match=message):
         zwidth("direct", base=base, **changes)
+
+
+def test_a_single_delay_is_refused_by_the_name_of_the_argument() -> None:
+    with pytest.raises(TypeError, match=r"zwidth: delays = 1 \(int\): must be a sequence"):
+        zwidth("direct", delays=1)  # type: ignore[arg-type]
 
 
 @pytest.mark.slow

@@ -93,7 +93,7 @@ def _values(
         try:
             if value is not None:
                 axis.apply(base, value)
-        except (ValueError, OverflowError) as error:
+        except (TypeError, ValueError, OverflowError) as error:
             reason = str(error).partition(": ")[2] or str(error)
             raise ValueError(
                 f"--{along}-{end} = {value:g} {axis.unit} ({axis.name}): {reason}"

@@ -96,7 +96,8 @@ def _device_mass(scenario: Scenario, value: float) -> Scenario:
 
 
 def _delay(scenario: Scenario, value: float) -> Scenario:
-    return scenario.replace(timing=scenario.timing.replace(delay=int(value)))
+    delay = int(value) if value % 1 == 0 else value  # which Timing refuses
+    return scenario.replace(timing=scenario.timing.replace(delay=delay))
 
 
 #: Quantities by the name they have on the command line.

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
-from ebac._util.arguments import require, unknown
+from ebac._util.arguments import require, several, unknown
 from ebac._util.arrays import Values
 from ebac._util.progress import Progress
 from ebac.laws import AnyLaw
@@ -45,7 +45,7 @@ def stability_map(
     x, y : str
         Names of `AXES`.
     xs, ys : array-like, optional
-        Values, in the unit of the axis; default: 200 over its range.
+        Values, at least two, rising, in the unit of the axis; default: 200 over its range.
     base : Scenario, optional
         The rest; default: the reference scenario, 2 s.
     threads, executor, out, resume, progress
@@ -58,7 +58,9 @@ def stability_map(
     Raises
     ------
     ValueError
-        For a quantity that does not exist or values out of range.
+        For a quantity that does not exist, or values that do not rise or are out of range.
+    TypeError
+        For a delay that is no whole number.
     """
     scenario = Scenario(seconds=2.0) if base is None else base
     require(scenario, Scenario, "ebac.stability_map", "a Scenario as its base")
@@ -66,8 +68,8 @@ def stability_map(
     if x == y:
         raise ValueError(f"x = y = {x!r}: a map needs two quantities")
     values = [
-        axis.values(SIDE) if given is None else np.asarray(given, float)
-        for axis, given in zip(along, (xs, ys), strict=True)
+        axis.values(SIDE) if given is None else _rising(which, axis, given)
+        for which, axis, given in zip(("xs", "ys"), along, (xs, ys), strict=True)
     ]
     scenarios = _grid(scenario, along, values)
     result = sweep(
@@ -83,6 +85,18 @@ def _axis(name: str) -> MapAxis:
     if name not in AXES:
         raise ValueError(unknown(f"map axis {name}", name, list(AXES)))
     return AXES[name]
+
+
+def _rising(which: str, axis: MapAxis, given: Sequence[float] | Values) -> Values:
+    """Return values along an axis; a figure has no place for others than rising ones."""
+    values = np.array(several(f"stability_map: {which}", given), float)
+    if values.ndim != 1 or len(values) < 2 or not (np.diff(values) > 0).all():
+        raise ValueError(
+            f"stability_map: {which} = {given} {axis.unit}: must be at least two, rising"
+        )
+    if axis.logarithmic and values[0] <= 0:
+        raise ValueError(f"stability_map: {which} = {given} {axis.unit}: must be above 0")
+    return values
 
 
 def _grid(base: Scenario, along: list[MapAxis], values: list[Values]) -> list[Scenario]:

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ebac._core import LinearLoop, Timing, Wall
-from ebac._util.arguments import require
+from ebac._util.arguments import require, several
 from ebac._util.arrays import Values
 from ebac.laws import LAWS, AnyLaw
 from ebac.metrics import EXACT_COUNTS, ideal_rest
@@ -95,7 +95,8 @@ def zwidth(
     _check(scenario, dampings, least_stiffness, most_stiffness, rungs, epsilon, hands)
     search = _Search(scenario, epsilon, hands, {"threads": threads, "executor": executor})
     named = name_laws(list(LAWS.values()) if laws is None else laws)
-    timings = [scenario.timing.replace(delay=delay) for delay in delays]
+    samples = several("zwidth: delays", delays)
+    timings = [scenario.timing.replace(delay=delay) for delay in samples]
     points = [(timing, float(damping)) for timing in timings for damping in dampings]
     ladder = np.geomspace(least_stiffness, most_stiffness, rungs)
     shown = len(timings) * len(STIFFNESSES) * SEEDS * len(APPROACHES)
@@ -104,7 +105,7 @@ def zwidth(
     shape = (len(named), len(timings), len(dampings))
     borders = [search.border(law, points, ladder) for law in named.values()]
     return ZWidth(
-        base=scenario, laws=tuple(named), delays=tuple(delays), dampings=np.asarray(dampings, float),
+        base=scenario, laws=tuple(named), delays=tuple(samples), dampings=np.asarray(dampings, float),
         least_stiffness=least_stiffness, most_stiffness=most_stiffness, epsilon=epsilon, hands=hands,
         limits={name: np.array([b[i] for b in borders]).reshape(shape) for i, name in enumerate(CRITERIA)},
         spectral=np.array([_spectral(scenario, *point) for point in points]).reshape(shape[1:]),
