@@ -21,6 +21,14 @@ from ebac.studies.maps import AXES, PRESETS, StabilityMap, stability_map
 from ebac.studies.zwidth import stiffness_limit
 
 BASE = ebac.Scenario(seconds=1.0)
+MOVING = ebac.Wall(motion_amplitude=2e-3, motion_frequency=2.0)
+
+
+class Spring(ebac.hands.OwnHand):
+    mass, damping, stiffness = 0.15, 6.0, 300.0
+
+    def force(self, t: float, x: float, v: float) -> float:
+        return self.stiffness * (0.04 - x) - self.damping * v
 
 
 def small(law: str = "direct", **changes: Any) -> StabilityMap:
@@ -207,6 +215,35 @@ def test_the_figure_names_a_line_only_where_there_is_one_and_has_walls_in_kilone
     assert "50" in [tick.get_text() for tick in verdicts.get_yticklabels()]
 
 
+@pytest.mark.parametrize(
+    ("base", "why"),
+    [
+        (
+            BASE.replace(environment=MOVING),
+            "the wall moves",
+        ),
+        (
+            BASE.replace(hand=ebac.Hand(path=ebac.Sine(amplitude=0.01, frequency=1.0))),
+            "the target of the hand keeps moving",
+        ),
+        (BASE.replace(hand=Spring()), "the hand is your own: where it rests is not known"),
+    ],
+)
+def test_a_map_without_an_ideal_rest_is_not_judged_exact(base: ebac.Scenario, why: str) -> None:
+    found = small(base=base)
+    assert found.unjudged == why
+    assert found.scores()["exact_share"] is None
+    assert "exact not judged, energy" in repr(found)
+    assert repr(found).endswith(f"; no ideal rest: {why}>")
+    assert len(found.verdicts) == 4
+    assert found.verdict.max() < 4
+    figure = plot_map(found)
+    assert f"not judged exact, there is no ideal rest: {why}" in figure.get_suptitle()
+    assert not any("ideal [mm]" in ax.get_title() for ax in figure.axes)
+    assert [ax.get_xlabel() for ax in figure.axes[1:3]] == ["wall damping B [N s/m]"] * 2
+    assert small().unjudged == ""
+
+
 @pytest.mark.parametrize("ys", [(2e3, 4e3, 8e3), (1e3, 1e4, 1e5)])
 def test_every_label_of_a_wall_is_in_kilonewtons(ys: tuple[float, ...]) -> None:
     figure = plot_map(small(ys=ys))
@@ -235,6 +272,14 @@ def test_the_command_tells_a_row_per_law() -> None:
     assert told["rows"][0]["x"] == "delay"
     assert told["rows"][0]["runs"] == 4 * 4
     assert 0 <= told["rows"][0]["quiet_share"] <= 1
+
+
+def test_the_command_says_why_a_map_is_not_judged_exact(tmp_path: Path) -> None:
+    BASE.replace(environment=MOVING).save(tmp_path / "moving.toml")
+    given = ("--side", "2", "--scenario", str(tmp_path / "moving.toml"))
+    text = command(*given)
+    assert "Not judged exact, there is no ideal rest: the wall moves." in text
+    assert json.loads(command(*given, "--json"))["rows"][0]["exact_share"] is None
 
 
 @pytest.mark.slow

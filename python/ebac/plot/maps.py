@@ -18,13 +18,14 @@ from ebac.plot.style import Picture, new_figure, plain_decades
 if TYPE_CHECKING:
     from ebac.studies.maps import MapAxis, StabilityMap
 
-#: Colours of the verdicts, best first.
+#: Colours of the verdicts, best first; without an ideal rest none is "still, not exact".
 VERDICT_COLOURS = ("#0072b2", "#56b4e9", "#c9dff0", "#f0c05a", "#8c2d04")
+UNJUDGED_COLOURS = VERDICT_COLOURS[:2] + VERDICT_COLOURS[3:]
 LINE: dict[str, Any] = {"colors": "black", "linewidths": 1.2, "linestyles": "solid"}
 
 
 def plot_map(found: StabilityMap) -> Picture:
-    """Draw a map: verdict, swing, energy drawn and deviation, one panel each.
+    """Draw a map: verdict, swing, energy drawn and, where there is an ideal rest, deviation, one panel each.
 
     Parameters
     ----------
@@ -40,19 +41,21 @@ def plot_map(found: StabilityMap) -> Picture:
     figure = new_figure(12, 9)
     grid = figure.subplots(2, 2, sharex=True, sharey=True)
     _verdicts(figure, grid[0, 0], found)
-    allowed = 1e3 * float(np.median(found["allowed_m"]))
     swing, energy = 1e3 * found["swing_m"], -1e3 * found["least_energy_J"]
-    deviation = 1e3 * np.abs(found["rest_m"] - found["ideal_m"])
     _panel(
         figure, grid[0, 1], found, swing, 1e3 * STILL_SWING, (1e-2, 1e2), "swing, peak to peak [mm]"
     )
     _panel(figure, grid[1, 0], found, energy, 1.0, (1e-2, 1e5), "energy drawn from the port [mJ]")
-    _panel(
-        figure, grid[1, 1], found, deviation, allowed, (1e-3, 1e1), "rest, away from the ideal [mm]"
-    )
     along, up = found.axes
-    for ax in grid[-1]:
+    lowest = grid[-1]
+    if found.unjudged:
+        grid[1, 1].remove()
+        lowest = [grid[1, 0], grid[0, 1]]
+    else:
+        _deviation(figure, grid[1, 1], found)
+    for ax in lowest:
         _axis(ax, along, "x")
+        ax.tick_params(which="both", labelbottom=True)
     for ax in grid[:, 0]:
         _axis(ax, up, "y")
     figure.suptitle(_title(found), fontsize="medium")
@@ -62,24 +65,34 @@ def plot_map(found: StabilityMap) -> Picture:
 def _title(found: StabilityMap) -> str:
     shares = found.scores()
     parts = for_law(formatting.describe(found.base), found.law).split("; ")
-    quiet, energy = shares["quiet_share"], shares["energy_share"]
+    quiet, energy, exact = (
+        formatting.quantity(shares[f"{name}_share"], "share")
+        for name in ("quiet", "energy", "exact")
+    )
+    judged = f", exact and quiet on {exact}"
+    if found.unjudged:
+        judged = f"; not judged exact, there is no ideal rest: {found.unjudged}"
     return (
         f"law {found.law}, simulated: {parts[0]}; {parts[1]}; {parts[3]}; the quantities of the axes vary\n"
-        f"Quiet on {100 * quiet:.0f} % of the area, at most 1 mJ drawn from the port on "
-        f"{100 * energy:.0f} %, exact and quiet on {100 * shares['exact_share']:.0f} %"
+        f"Quiet on {quiet} of the area, at most 1 mJ drawn from the port on {energy}{judged}"
     )
 
 
 def _verdicts(figure: Figure, ax: Axes, found: StabilityMap) -> None:
-    from ebac.studies.maps import VERDICTS
-
-    colours = ListedColormap(VERDICT_COLOURS)
-    norm = BoundaryNorm(np.arange(len(VERDICTS) + 1) - 0.5, colours.N)
+    names = found.verdicts
+    colours = ListedColormap(UNJUDGED_COLOURS if found.unjudged else VERDICT_COLOURS)
+    norm = BoundaryNorm(np.arange(len(names) + 1) - 0.5, colours.N)
     image = ax.pcolormesh(*_edges(found), found.verdict, cmap=colours, norm=norm, rasterized=True)
-    bar = figure.colorbar(image, ax=ax, ticks=range(len(VERDICTS)), pad=0.02)
-    bar.ax.set_yticklabels(VERDICTS)
+    bar = figure.colorbar(image, ax=ax, ticks=range(len(names)), pad=0.02)
+    bar.ax.set_yticklabels(names)
     bar.ax.tick_params(length=0)
     ax.set_title("verdict", fontsize="medium")
+
+
+def _deviation(figure: Figure, ax: Axes, found: StabilityMap) -> None:
+    allowed = 1e3 * float(np.median(found["allowed_m"]))
+    deviation = 1e3 * np.abs(found["rest_m"] - found["ideal_m"])
+    _panel(figure, ax, found, deviation, allowed, (1e-3, 1e1), "rest, away from the ideal [mm]")
 
 
 def _panel(

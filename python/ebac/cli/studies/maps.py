@@ -171,6 +171,8 @@ def _show(maps: list[StabilityMap]) -> None:
         shares = found.scores()
         grid.add_row(found.law, *(formatting.quantity(shares[name], "share") for name in names))
     output.show(grid)
+    if why := maps[0].unjudged:
+        output.say(f"Not judged exact, there is no ideal rest: {why}.")
     along, up = maps[0].axes
     output.say(f"Share of the area: {_range(along, maps[0].xs)} by {_range(up, maps[0].ys)}.")
     output.say("Simulation. These two vary; everything else as in:", style="bold")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 from typing import Any
 
@@ -16,6 +17,8 @@ from ebac.studies.sweeps import SweepResult
 
 #: What a run can come to, best first: a cell of `verdict` is a place in this list.
 VERDICTS = ("exact and quiet", "exact, force not quiet", "still, not exact", "swings", "diverges")
+#: The same in a map without an ideal rest, where the target of the hand or the wall may move the handle.
+UNJUDGED = ("quiet", "still, force not quiet", "swings, or is moved", "diverges")
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -58,19 +61,39 @@ class StabilityMap:
         """Where the run came to its end and its contact is quiet."""
         return np.asarray(self["quiet"])
 
+    @cached_property
+    def unjudged(self) -> str:
+        """Why no run is judged exact: some run has no ideal rest; empty where all have one."""
+        from ebac.metrics.unjudged import no_ideal_rest
+
+        unknown = np.argwhere(~np.isfinite(self["ideal_m"]))
+        if not len(unknown):
+            return ""
+        row, column = unknown[0]
+        along, up = self.axes
+        return no_ideal_rest(up.apply(along.apply(self.base, self.xs[column]), self.ys[row]))
+
+    @property
+    def verdicts(self) -> tuple[str, ...]:
+        """What a run of this map can come to, best first: `VERDICTS`, or `UNJUDGED` without an ideal rest."""
+        return UNJUDGED if self.unjudged else VERDICTS
+
     @property
     def verdict(self) -> NDArray[np.int64]:
-        """What each run came to: the place in `VERDICTS`."""
-        still, exact = self["still"], self.result.exact.reshape(self.quiet.shape)
-        of_still = np.where(exact, np.where(self.quiet, 0, 1), 2)
-        return np.where(self._lost, 4, np.where(still, of_still, 3))
+        """What each run came to: the place in `verdicts`."""
+        of_still = np.where(self.quiet, 0, 1)
+        if not self.unjudged:
+            exact = self.result.exact.reshape(self.quiet.shape)
+            of_still = np.where(exact, of_still, VERDICTS.index("still, not exact"))
+        swings, diverges = len(self.verdicts) - 2, len(self.verdicts) - 1
+        return np.where(self._lost, diverges, np.where(self["still"], of_still, swings))
 
     @property
     def _lost(self) -> NDArray[np.bool_]:
         return np.asarray(self["diverged"] | (self["fault"] != 0) | ~self["done"])
 
-    def scores(self, epsilon: float = 1e-3) -> dict[str, float]:
-        """Return the share of the area, as the axes are drawn, where a criterion holds.
+    def scores(self, epsilon: float = 1e-3) -> dict[str, float | None]:
+        """Return the share of the area, as the axes are drawn, where a criterion holds; None where it is not judged.
 
         Parameters
         ----------
@@ -80,7 +103,7 @@ class StabilityMap:
         energy = (self["least_energy_J"] >= -epsilon) & ~self._lost
         return {
             "quiet_share": float(self.quiet.mean()),
-            "exact_share": float((self.verdict == 0).mean()),
+            "exact_share": None if self.unjudged else float((self.verdict == 0).mean()),
             "energy_share": float(energy.mean()),
             "quiet_and_energy_share": float((self.quiet & energy).mean()),
         }
@@ -100,13 +123,16 @@ class StabilityMap:
 
     def __repr__(self) -> str:
         """Return the quantities, their ranges and the shares of the area."""
+        from ebac._util.formatting import quantity
+
         along, up = self.axes
+        why = f"; no ideal rest: {self.unjudged}" if self.unjudged else ""
         shares = ", ".join(
-            f"{name.removesuffix('_share').replace('_', ' ')} {100 * value:.0f} %"
+            f"{name.removesuffix('_share').replace('_', ' ')} {quantity(value, 'share', none='not judged')}"
             for name, value in self.scores().items()
         )
         return (
             f"<StabilityMap of {self.law}, simulated, {len(self.xs)} x {len(self.ys)} runs: "
             f"{along.label} {self.xs[0]:g} to {self.xs[-1]:g}, {up.label} {self.ys[0]:g} to {self.ys[-1]:g}; "
-            f"of the area {shares}>"
+            f"of the area {shares}{why}>"
         )
