@@ -180,6 +180,29 @@ def test_walls_shows_every_law_and_the_ideal(run: Run) -> None:
     assert {colour("tca"), colour("eba"), colour("ebac")} <= shown
 
 
+def test_walls_tell_variants_of_a_law_apart(run: Run) -> None:
+    scenario = ebac.Scenario(seconds=1.0)
+    variant = ebac.simulate(scenario, ebac.Variant("tca-damped", {"kp": 0.0}))
+    runs = [run("tca-damped", seconds=1.0), variant]
+    counted = plot_walls(runs)
+    named = plot_walls({"damped": runs[0], "kp=0": runs[1]})
+    for figure, names in ((counted, ["tca-damped", "tca-damped (2)"]), (named, ["damped", "kp=0"])):
+        assert [text.get_text() for text in figure.legends[0].get_texts()][:2] == names
+        lines = {line.get_label(): line.get_color() for line in figure.axes[0].get_lines()}
+        assert lines[names[0]] != lines[names[1]]
+    apart = plot_walls([*runs, run("direct", seconds=1.0), run("tca", seconds=1.0)])
+    titles = {ax.get_title(): ax.title.get_color() for ax in apart.axes if ax.get_title()}
+    assert list(titles)[:2] == ["tca-damped", "tca-damped (2)"]
+    assert len(set(titles.values())) == 4
+    twice = plot_walls([run("tca"), run("ebac"), run("ebac")])
+    assert "used by ebac only" in twice.get_suptitle()
+
+
+def test_walls_take_a_single_trace(run: Run) -> None:
+    (legend,) = plot_walls(run("eba", seconds=1.0)).legends
+    assert legend.get_texts()[0].get_text() == "eba"
+
+
 def test_walls_without_an_ideal_has_no_panel_for_it(run: Run) -> None:
     hand = ebac.Hand(path=ebac.Sine())
     for given in ({"hand": hand}, {"environment": ebac.Free()}):

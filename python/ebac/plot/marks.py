@@ -69,7 +69,7 @@ def for_laws(described: str, traces: Sequence[Trace]) -> str:
     by = ""
     if users:
         by = ", state observer"
-        by += f" used by {', '.join(users)} only" if len(users) < len(traces) else ""
+        by += f" used by {', '.join(dict.fromkeys(users))} only" if len(users) < len(traces) else ""
     return re.sub(_OBSERVER, by, described)
 
 

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections import Counter
+from collections.abc import Mapping, Sequence
 from functools import partial
 from textwrap import fill
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from matplotlib.artist import Artist
@@ -17,7 +18,7 @@ from ebac.plot.marks import fault_name, for_laws, heading, mark_end
 from ebac.plot.style import (
     IDEAL,
     Picture,
-    colour,
+    colours,
     dress,
     figure_legend,
     landmarks,
@@ -34,13 +35,27 @@ TOGETHER = 3
 ROWS = {"x": "position [mm]", "f": "applied force [N]", "beta": r"$\beta$ [kN/m]"}
 
 
-def plot_walls(traces: Sequence[Trace]) -> Picture:
+class _Run(NamedTuple):
+    """A trace, what it is called, and its colour."""
+
+    name: str
+    shade: str
+    trace: Trace
+
+    @property
+    def label(self) -> str:
+        fault = fault_name(self.trace)
+        return f"{self.name}, ended by {fault}" if fault else self.name
+
+
+def plot_walls(traces: Trace | Sequence[Trace] | Mapping[str, Trace]) -> Picture:
     """Draw the paper's Fig. 11: several laws against one wall, how they meet it and where they end.
 
     Parameters
     ----------
-    traces : sequence of Trace
-        One run per law, of the same scenario.
+    traces : Trace, sequence of Trace, or mapping of names to traces
+        One run per law, of the same scenario. Give names where laws have none of their own or the same, as variants of
+        one law have; in a sequence the second of one name is called "tca-damped (2)".
 
     Returns
     -------
@@ -53,22 +68,38 @@ def plot_walls(traces: Sequence[Trace]) -> Picture:
     ValueError
         When there is no trace or one is too short.
     """
-    if not traces or min(len(trace) for trace in traces) < 10:
+    named = _named(traces)
+    if not named or min(map(len, named.values())) < 10:
         raise ValueError("a figure of walls needs at least one trace, each of at least 10 rows")
-    return _draw(traces, narrow=False)
+    shades = colours(named)
+    return _draw([_Run(name, shades[name], trace) for name, trace in named.items()], narrow=False)
 
 
-def _draw(traces: Sequence[Trace], *, narrow: bool) -> Picture:
+def _named(traces: Trace | Sequence[Trace] | Mapping[str, Trace]) -> dict[str, Trace]:
+    """Return traces by name; those that go by one name are counted."""
+    if isinstance(traces, Mapping):
+        return dict(traces)
+    met: Counter[str] = Counter()
+    named: dict[str, Trace] = {}
+    for trace in [traces] if isinstance(traces, Trace) else traces:
+        name = trace.law or "a run"
+        met[name] += 1
+        named[f"{name} ({met[name]})" if met[name] > 1 else name] = trace
+    return named
+
+
+def _draw(runs: Sequence[_Run], *, narrow: bool) -> Picture:
+    traces = [run.trace for run in runs]
     ideal = ideal_rest(traces[0].scenario) if traces[0].scenario else None
     contact = _first_contact(traces)
     begun = [_parts(trace, contact)[0] for trace in traces]
     rows = [row for row in ROWS if row != "beta" or any(map(_has_beta, begun))]
-    draw = _together if len(traces) <= TOGETHER else _apart
+    draw = _together if len(runs) <= TOGETHER else _apart
     rests = ideal is not None and any(_offset(trace, ideal) is not None for trace in traces)
-    figure, near = draw(traces, rows, near=rests, narrow=narrow)
-    figure.narrow = partial(_draw, traces, narrow=True)
+    figure, near = draw(runs, rows, near=rests, narrow=narrow)
+    figure.narrow = partial(_draw, runs, narrow=True)
     if ideal is not None and near is not None:
-        _near(near, traces, ideal, named=draw is _apart)
+        _near(near, runs, ideal, named=draw is _apart)
     if traces[0].scenario is not None:
         figure.suptitle(_heading(traces, traces[0].scenario), fontsize="medium")
     figure.align_ylabels()
@@ -81,7 +112,7 @@ def _heading(traces: Sequence[Trace], scenario: Scenario) -> str:
 
 
 def _together(
-    traces: Sequence[Trace], rows: list[str], *, near: bool, narrow: bool
+    runs: Sequence[_Run], rows: list[str], *, near: bool, narrow: bool
 ) -> tuple[Picture, Axes | None]:
     """Draw all laws in the same panels: the beginning on the left, the end on the right."""
     names: list[Any] = [[row, f"{row} end"] for row in ("x", "f")]
@@ -92,80 +123,85 @@ def _together(
         names.append(["near", "near"])
     figure = new_figure(5 if narrow else 11, (1.9 if narrow else 2.7) * len(names) + 1.0)
     axes = figure.subplot_mosaic(names, width_ratios=[2, 1])
-    for trace in sorted(traces, key=_restlessness):
-        begin, end = _parts(trace, _first_contact(traces))
+    first, contact = runs[0].trace, _first_contact([run.trace for run in runs])
+    for run in sorted(runs, key=lambda run: _restlessness(run.trace)):
+        begin, end = _parts(run.trace, contact)
         for row in rows:
-            _lines(axes[row], row, begin, label=_label(trace))
+            _lines(axes[row], row, begin, run.shade, label=run.label)
             if row != "beta":
-                _lines(axes[f"{row} end"], row, end, label="_")
+                _lines(axes[f"{row} end"], row, end, run.shade, label="_")
     for row in rows:
-        dress(axes[row], _named(row, traces[0]))
+        dress(axes[row], _axis_label(row, first))
     for row in ("x", "f"):
         dress(axes[f"{row} end"], "")
         axes[f"{row} end"].sharey(axes[row])
         axes[f"{row} end"].tick_params(labelleft=False)
     if "beta" in rows:
         axes["beta"].sharex(axes["x"])
-    landmarks(axes["x"], traces[0])
-    landmarks(axes["x end"], traces[0])
+    landmarks(axes["x"], first)
+    landmarks(axes["x end"], first)
     axes["x"].set_title("first contact with the wall", fontsize="medium")
     axes["x end"].set_title("the end of the run", fontsize="medium")
     for name in (rows[-1], "f end"):
         axes[name].set_xlabel("time [s]")
     marks = _marks(axes["x"]) | _marks(axes["f"]) | _marks(axes["f end"])
-    order = [_label(trace) for trace in traces]
+    order = [run.label for run in runs]
     order += [label for label in marks if label not in order]
     figure_legend(figure, [marks[label] for label in order], order)
     return figure, axes.get("near")
 
 
 def _apart(
-    traces: Sequence[Trace], rows: list[str], *, near: bool, narrow: bool
+    runs: Sequence[_Run], rows: list[str], *, near: bool, narrow: bool
 ) -> tuple[Picture, Axes | None]:
     """Draw each law in panels of its own, three or four laws abreast; few panels of beta stand beside the end."""
-    abreast = 2 if narrow else min((3, 4), key=lambda n: -len(traces) % n)  # fewest empty places
-    bands = [traces[i : i + abreast] for i in range(0, len(traces), abreast)]
-    beside = [trace for trace in traces if _has_beta(trace)] if near and "beta" in rows else []
+    abreast = 2 if narrow else min((3, 4), key=lambda n: -len(runs) % n)  # fewest empty places
+    bands = [runs[i : i + abreast] for i in range(0, len(runs), abreast)]
+    beside = [run for run in runs if _has_beta(run.trace)] if near and "beta" in rows else []
     if narrow or len(beside) > abreast // 2:
         beside = []
     if beside:
         rows = [row for row in rows if row != "beta"]
     lines = [
-        (band, row) for band in bands for row in rows if row != "beta" or any(map(_has_beta, band))
+        (band, row)
+        for band in bands
+        for row in rows
+        if row != "beta" or any(_has_beta(run.trace) for run in band)
     ]
     figure = new_figure(
         5 if narrow else 11, 1.6 * len(lines) + 0.4 * len(bands) + (2.2 if near else 0) + 1.0
     )
     heights = [1.0] * len(lines) + ([1.4] if near else [])
     grid = figure.add_gridspec(len(heights), abreast, height_ratios=heights)
-    contact = _first_contact(traces)
+    contact = _first_contact([run.trace for run in runs])
     first: dict[str, Axes] = {}
     for place, (band, row) in enumerate(lines):
-        for column, trace in enumerate(band):
+        for column, run in enumerate(band):
+            trace = run.trace
             if row == "beta" and not _has_beta(trace):
                 continue
             ax = figure.add_subplot(
                 grid[place, column], sharey=first.get(row), sharex=first.get("x")
             )
-            left = column == 0 or (not _has_beta(band[column - 1]) and row == "beta")
+            left = column == 0 or (not _has_beta(band[column - 1].trace) and row == "beta")
             first.setdefault(row, ax)
-            _lines(ax, row, _parts(trace, contact)[0], label="_")
-            dress(ax, _named(row, trace) if left else "")
+            _lines(ax, row, _parts(trace, contact)[0], run.shade, label="_")
+            dress(ax, _axis_label(row, trace) if left else "")
             if row == "x":
                 landmarks(ax, trace)
-                ax.set_title(_label(trace), color=colour(trace.law), fontweight="bold")
+                ax.set_title(run.label, color=run.shade, fontweight="bold")
             last = row == ("beta" if "beta" in rows and _has_beta(trace) else "f")
             ax.tick_params(labelbottom=last, labelleft=left)
             if last:
                 ax.set_xlabel("time [s]")
-    for place, trace in enumerate(beside, abreast - len(beside)):
+    for place, run in enumerate(beside, abreast - len(beside)):
         ax = figure.add_subplot(grid[-1, place], sharey=first.get("beta"), sharex=first["x"])
         left = "beta" not in first
         first.setdefault("beta", ax)
-        _lines(ax, "beta", _parts(trace, contact)[0], label="_")
-        dress(ax, _named("beta", trace) if left else "")
+        _lines(ax, "beta", _parts(run.trace, contact)[0], run.shade, label="_")
+        dress(ax, _axis_label("beta", run.trace) if left else "")
         ax.tick_params(labelleft=left)
-        ax.set_title(_label(trace), color=colour(trace.law), fontweight="bold")
+        ax.set_title(run.label, color=run.shade, fontweight="bold")
         ax.set_xlabel("time [s]")
     marks = {label: mark for ax in figure.axes for label, mark in _marks(ax).items()}
     if marks:
@@ -173,18 +209,13 @@ def _apart(
     return figure, figure.add_subplot(grid[-1, : abreast - len(beside)]) if near else None
 
 
-def _named(row: str, trace: Trace) -> str:
+def _axis_label(row: str, trace: Trace) -> str:
     """Return the label of a row of panels; on a device of several axes, that it shows the first."""
     return ROWS[row] if trace.axes == 1 else ROWS[row].replace(" [", " x [")
 
 
 def _marks(ax: Axes) -> dict[str, Artist]:
     return dict(zip(*reversed(ax.get_legend_handles_labels()), strict=True))
-
-
-def _label(trace: Trace) -> str:
-    fault = fault_name(trace)
-    return f"{trace.law}, ended by {fault}" if fault else trace.law
 
 
 def _place(trace: Trace) -> Values:
@@ -214,8 +245,8 @@ def _parts(trace: Trace, contact: float) -> tuple[Trace, Trace]:
     return trace[begin : contact + 0.25 * length], trace[float(t[-1]) - 0.05 * length :]
 
 
-def _lines(ax: Axes, row: str, part: Trace, label: str) -> None:
-    style: dict[str, Any] = {"color": colour(part.law), "label": label}
+def _lines(ax: Axes, row: str, part: Trace, shade: str, label: str) -> None:
+    style: dict[str, Any] = {"color": shade, "label": label}
     if row == "x":
         line(ax, part["t"], 1e3 * _place(part), lw=1.3, **style)
     elif row == "f":
@@ -245,23 +276,23 @@ def _offset(trace: Trace, ideal: float) -> tuple[Values, Values] | None:
     return (part["t"], offset) if near else None
 
 
-def _near(ax: Axes, traces: Sequence[Trace], ideal: float, *, named: bool) -> None:
+def _near(ax: Axes, runs: Sequence[_Run], ideal: float, *, named: bool) -> None:
     """Draw the last 30 % around the ideal point, at the scale of encoder counts; its legend may name the laws."""
-    scenario = traces[0].scenario
-    band = _band(traces[0])
+    first = runs[0].trace
+    scenario, band = first.scenario, _band(first)
     friction = scenario is not None and band > 1.001e3 * EXACT_COUNTS * scenario.device.count
     more = " and friction" if friction else ""
     ax.axhspan(-band, band, color="0.92", label=f"within {EXACT_COUNTS} encoder counts{more}")
     ax.axhline(0, **IDEAL)
     ax.set_ylim(-5 * band, 5 * band)
     away = []
-    for trace in traces:
-        offset = _offset(trace, ideal)
+    for run in runs:
+        offset = _offset(run.trace, ideal)
         if offset is None:
-            away.append(trace.law)
+            away.append(run.name)
         else:
-            line(ax, *offset, color=colour(trace.law), lw=1.2, label=trace.law if named else "_")
-    along = "" if traces[0].axes == 1 else " x"
+            line(ax, *offset, color=run.shade, lw=1.2, label=run.name if named else "_")
+    along = "" if first.axes == 1 else " x"
     dress(ax, f"beyond the\nideal rest{along} [mm]")
     ax.set_xlabel("time [s]")
     if away:
