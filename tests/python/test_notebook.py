@@ -85,6 +85,29 @@ def test_a_sweep_without_a_point_of_rest_shows_its_table_alone() -> None:
     assert np.isnan(result["ideal_m"]).all()
 
 
+def test_a_sweep_has_one_table_below_its_title() -> None:
+    html = ebac.sweep([SHORT], ["direct"])._repr_html_()
+    assert html.startswith("<p>SweepResult: 1 runs under direct, 1 done</p>")
+
+
+def test_a_contact_begins_as_its_text_does() -> None:
+    contact = ebac.contact(ebac.simulate(ebac.Scenario(seconds=1.0), "tca-damped"))
+    title, force, *lines = str(contact).splitlines()
+    html = contact._repr_html_()
+    assert html.startswith(f"<p>{title}; {force.strip()}</p>")
+    for line in lines:
+        assert f"<td>{line[2:22].strip()}</td><td>{line[22:]}</td>" in html
+
+
+def test_a_zwidth_has_the_numbers_of_its_text_whatever_the_laws() -> None:
+    found = ebac.zwidth(["ebac"], base=SHORT, delays=[1], dampings=[0.0, 10.0], rungs=3)
+    title, headings, cells = repr(found).splitlines()[:3]
+    html = found._repr_html_()
+    assert html.startswith(f"<p>{title}</p>")
+    assert all(f"<th>{one.strip()}</th>" in html for one in headings.split("  ") if one)
+    assert all(f"<td>{cell}</td>" in html for cell in cells.split())
+
+
 def test_nothing_is_drawn_before_a_result_is_shown() -> None:
     code = (
         "import sys, ebac; r = ebac.sweep([ebac.Scenario(seconds=0.1)], ['tca']); repr(r); "

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import asdict, dataclass
 
 from ebac._util import formatting, verdicts
@@ -210,24 +211,26 @@ class Contact:
 
     def __str__(self) -> str:
         """Return the verdict and every number with its unit, one a line."""
-        signed = {"deviation_m"}
-        lines = [
-            f"Contact of {self.law or 'a run'}: {self.verdict}",
-            f"  force {self.force_verdict}",
-        ]
-        for label, name, unit, none in LINES:
-            value = formatting.of_contact(self, name)
-            if value is None and not none:
-                continue
-            shown = formatting.quantity(value, unit, signed=name in signed, none=none)
-            lines.append(f"  {label:<20}{shown}")
-        return "\n".join(lines)
+        lines = [f"  {label:<20}{shown}" for label, shown in self._numbers()]
+        return "\n".join([self._title(), f"  force {self.force_verdict}", *lines])
 
     def _repr_html_(self) -> str:
-        """Return a table for a notebook."""
-        from ebac._util.notebook import table
+        """Return the same for a notebook."""
+        from ebac._util import notebook
 
-        return table([{name: formatting.of_contact(self, name) for name in asdict(self)}])
+        rows = [{"quantity": label, "value": shown} for label, shown in self._numbers()]
+        return notebook.result(f"{self._title()}; force {self.force_verdict}", rows)
+
+    def _title(self) -> str:
+        return f"Contact of {self.law or 'a run'}: {self.verdict}"
+
+    def _numbers(self) -> Iterator[tuple[str, str]]:
+        """Yield the label and the text of every number that there is."""
+        signed = {"deviation_m"}
+        for label, name, unit, none in LINES:
+            value = formatting.of_contact(self, name)
+            if value is not None or none:
+                yield label, formatting.quantity(value, unit, signed=name in signed, none=none)
 
     @property
     def deviation_m(self) -> float | None:

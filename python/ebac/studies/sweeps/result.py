@@ -121,12 +121,14 @@ class SweepResult:
         from ebac._util import notebook
         from ebac.plot import plot_sweep
 
-        return notebook.result(repr(self), self.rows(), lambda: plot_sweep(self))
+        return notebook.result(self._title(), self.rows(), lambda: plot_sweep(self))
 
     def __repr__(self) -> str:
         """Return runs, laws, and the first and last rows: what was swept and what came of it."""
         from ebac._util.report import report
 
+        return report(self._title(), self.rows(), keys=("law", "scenario"))
+
+    def _title(self) -> str:
         laws = ", ".join(dict.fromkeys(self["law"].tolist()))
-        title = f"SweepResult: {len(self)} runs under {laws}, {int(self['done'].sum())} done"
-        return report(title, self.rows(), keys=("law", "scenario"))
+        return f"SweepResult: {len(self)} runs under {laws}, {int(self['done'].sum())} done"

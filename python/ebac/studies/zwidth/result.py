@@ -158,11 +158,29 @@ class ZWidth:
 
     def __repr__(self) -> str:
         """Return the stiffest wall of each law by criterion, its mean over the wall damping."""
-        from ebac._util.plural import plural
         from ebac._util.report import report
 
+        return report(self._title(), self._means())
+
+    def _repr_html_(self) -> str:
+        """Return the same and the figure, for a notebook."""
+        from ebac._util import notebook
+        from ebac.plot import plot_zwidth
+
+        return notebook.result(self._title(), self._means(), lambda: plot_zwidth(self))
+
+    def _title(self) -> str:
+        from ebac._util.plural import plural
+
+        return (
+            f"Z-width, simulated: {plural(len(self.laws), 'law')}, {plural(len(self.delays), 'delay')}; "
+            f"stiffest wall, mean over wall damping {self.dampings[0]:g} to {self.dampings[-1]:g} N s/m"
+        )
+
+    def _means(self) -> list[dict[str, Any]]:
+        """Return one row per law and delay: by criterion the stiffest wall, its mean over the wall damping."""
         width = float(self.dampings[-1] - self.dampings[0])
-        rows = [
+        return [
             {
                 "law": law,
                 "delay_samples": delay,
@@ -171,23 +189,6 @@ class ZWidth:
             for law in self.laws
             for delay in self.delays
         ]
-        title = (
-            f"Z-width, simulated: {plural(len(self.laws), 'law')}, {plural(len(self.delays), 'delay')}; "
-            f"stiffest wall, mean over wall damping {self.dampings[0]:g} to {self.dampings[-1]:g} N s/m"
-        )
-        return report(title, rows)
-
-    def _repr_html_(self) -> str:
-        """Return the figure and the scores, for a notebook."""
-        from ebac._util import notebook
-        from ebac.plot import plot_zwidth
-
-        def score(row: dict[str, Any]) -> dict[str, Any]:
-            return {key: value for key, value in row.items() if not key.endswith("_area")}
-
-        title = "Z-width, simulated: how many times the area of walls without a law"
-        rows = [score(row) for row in self.scores()]
-        return notebook.result(title, rows, lambda: plot_zwidth(self))
 
     def rows(self) -> list[dict[str, Any]]:
         """Return one row per law, delay and wall damping, SI units, the unit in the name."""
