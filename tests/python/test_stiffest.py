@@ -185,6 +185,13 @@ def test_a_result_is_saved_printed_and_drawn(found: Stiffest, tmp_path: Path) ->
     assert "exact and still [N/m]" in repr(found)
 
 
+def test_the_stiffest_wall_of_the_search_is_printed_with_or_more(found: Stiffest) -> None:
+    every = counted(found, exact_and_still=[[4, 4, 4], [4, 4, 0]])
+    for shown in (repr(every), every._repr_html_()):
+        assert shown.count("50000 or more") == 1
+        assert "10000 or more" not in shown
+
+
 def test_the_figure_has_a_panel_for_each_law_the_best_first(found: Stiffest) -> None:
     figure = plot_stiffest(found)
     assert [ax.get_title().partition("\n")[0] for ax in figure.axes] == [r.law for r in found.rows]

@@ -233,6 +233,20 @@ def test_a_border_says_what_it_ends_by(found: ZWidth) -> None:
     assert low.share("direct", 0) == 1
 
 
+def test_a_mean_says_where_the_search_ended_and_where_no_wall_was_held(found: ZWidth) -> None:
+    note = "A wall damping at which a law holds no wall counts as 0 N/m."
+    limits = {name: np.array([[[1e5, 3e4]]]) for name in CRITERIA}
+    limits["energy"] = np.array([[[5e4, 3e4]]])
+    one = replace(found, laws=("eba",), delays=(1,), limits=limits)
+    for shown in (repr(one), one._repr_html_()):
+        assert shown.count("65000 or more") == 3
+        assert "40000 or more" not in shown
+        assert note not in shown
+    none = replace(one, limits={**limits, "quiet": np.array([[[0.0, 3e4]]])})
+    assert note in repr(none)
+    assert note in none._repr_html_()
+
+
 def test_the_share_of_a_single_damping(found: ZWidth) -> None:
     one = replace(
         found, dampings=found.dampings[:1], limits={n: x[..., :1] for n, x in found.limits.items()}

@@ -86,6 +86,11 @@ def cell(value: float | None, unit: str, *, none: str = "-") -> str:
     return _converted(vibration_shown(value) if unit == "threshold" else value, unit)
 
 
+def or_more(value: float | None, unit: str, *, ended: bool) -> str:
+    """Return a number as `cell`; with "or more" where a search ended there."""
+    return f"{cell(value, unit)}{' or more' if ended else ''}"
+
+
 def listed(title: str, result: Any, lines: Iterable[tuple[str, str, str, str]]) -> str:
     """Return a title and the numbers of a result, one a line: label, attribute, SI unit, what to print for none."""
     shown = [f"  {label:<20}{quantity(of_contact(result, name), unit, none=none)}"

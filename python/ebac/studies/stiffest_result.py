@@ -166,18 +166,29 @@ class Stiffest:
         """Return a row per law, the best first."""
         from ebac._util.report import report
 
-        return report(self._title(), self._table(), keys=("law",))
+        return report(self._title(), self._shown(), keys=("law",))
 
     def _repr_html_(self) -> str:
         """Return the figure and a row per law, for a notebook."""
         from ebac._util import notebook
 
-        return notebook.result(self._title(), self._table(), self.plot)
+        return notebook.result(self._title(), self._shown(), self.plot)
 
     def _title(self) -> str:
         of = f"{self.needed} of {self.hands} hands"
         ends = f"{1e-3 * self.stiffnesses[0]:g} to {1e-3 * self.stiffnesses[-1]:g} kN/m"
         return f"Stiffest wall up to which {of} are held, simulated; {len(self.stiffnesses)} walls, {ends}"
+
+    def _shown(self) -> list[dict[str, Any]]:
+        """Return the rows with "or more" at the stiffest wall that was tried."""
+        from ebac._util.formatting import or_more
+
+        top = float(self.stiffnesses[-1])
+        keys = [f"{criterion}_N_per_m" for criterion in CRITERIA]
+        return [
+            row | {key: or_more(row[key], "N/m", ended=row[key] == top) for key in keys}
+            for row in self._table()
+        ]
 
     def _table(self) -> list[dict[str, Any]]:
         return [row.row() for row in self.rows]

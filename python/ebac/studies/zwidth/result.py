@@ -160,14 +160,15 @@ class ZWidth:
         """Return the stiffest wall of each law by criterion, its mean over the wall damping."""
         from ebac._util.report import report
 
-        return report(self._title(), self._means())
+        return report(self._title(), self._means(), self._note())
 
     def _repr_html_(self) -> str:
         """Return the same and the figure, for a notebook."""
         from ebac._util import notebook
         from ebac.plot import plot_zwidth
 
-        return notebook.result(self._title(), self._means(), lambda: plot_zwidth(self))
+        title = f"{self._title()}. {self._note()}".removesuffix(". ")
+        return notebook.result(title, self._means(), lambda: plot_zwidth(self))
 
     def _title(self) -> str:
         from ebac._util.plural import plural
@@ -179,16 +180,29 @@ class ZWidth:
 
     def _means(self) -> list[dict[str, Any]]:
         """Return one row per law and delay: by criterion the stiffest wall, its mean over the wall damping."""
+        from ebac._util.formatting import or_more
+
         width = float(self.dampings[-1] - self.dampings[0])
         return [
             {
                 "law": law,
                 "delay_samples": delay,
-                **{f"{name}_N_per_m": self.area(name, law, delay) / width for name in CRITERIA},
+                **{
+                    f"{name}_N_per_m": or_more(
+                        self.area(name, law, delay) / width,
+                        "N/m",
+                        ended=bool((self.limits[name][i, d] >= self.most_stiffness).any()),
+                    )
+                    for name in CRITERIA
+                },
             }
-            for law in self.laws
-            for delay in self.delays
+            for i, law in enumerate(self.laws)
+            for d, delay in enumerate(self.delays)
         ]
+
+    def _note(self) -> str:
+        failing = any((limits == 0).any() for limits in self.limits.values())
+        return "A wall damping at which a law holds no wall counts as 0 N/m." if failing else ""
 
     def rows(self) -> list[dict[str, Any]]:
         """Return one row per law, delay and wall damping, SI units, the unit in the name."""
