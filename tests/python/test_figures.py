@@ -499,6 +499,33 @@ def test_an_overview_writes_energies_with_their_unit_and_names_level() -> None:
     check_inside(overview)
 
 
+LONG_NAMES = {
+    "a law with quite a long name of its own": "tca",
+    "lag-compensator-with-observer": "lag-compensator",
+    "another_law_with_underscores": "ebac",
+}
+
+
+@pytest.mark.parametrize("more", [[], ["direct", "passivity-control", "tca", "tca-damped", "eba"]])
+def test_a_study_fits_one_column_whatever_its_laws_are_called(more: list[str]) -> None:
+    laws = LONG_NAMES | {law: law for law in more}
+    base = ebac.Scenario(seconds=1.0)
+    found = dict(plot_study(study(Operators.grid()[:3], laws, ["d1K10"], base=base)))
+    overview, hands = (found[name].narrow() for name in ("overview", "hands"))
+    for column in (overview, hands):
+        inches = millimetres("single") / 25.4
+        check_inside(column, inches)
+        with fitted(column, inches):
+            column.draw_without_rendering()
+            for ax in column.axes:
+                assert ax.get_position().width > (0.6 if column is overview else 0.3)
+                boxes = [text.get_window_extent() for text in ax.texts]
+                assert all(column.bbox.x0 <= box.x0 and box.x1 <= column.bbox.x1 for box in boxes)
+                if column is overview:
+                    pairs = itertools.combinations(boxes, 2)
+                    assert not any(one.overlaps(other) for one, other in pairs)
+
+
 @pytest.mark.parametrize(
     ("drawn", "text"),
     [

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from ebac._util import formatting
 from ebac.metrics import STILL_SWING
-from ebac.plot.style import Picture, colour, figure_legend, new_figure
+from ebac.plot.style import Picture, colours, figure_legend, new_figure
 
 if TYPE_CHECKING:
     from ebac.studies import Study
@@ -35,8 +35,10 @@ CROSS: dict[str, Any] = {"marker": "x", "ms": 5, "mew": 1.1}
 #: How opaque the colours of a table are, and below which luminance its text is white.
 OPAQUE, DARK = 0.75, 0.45
 #: Room for a letter and for a line of a name in a table [inch], the letters of a line, and the least width of a cell
-#: [inch]; names that have no room in one column of a journal slope [degree].
-LETTER, LINE, LETTERS, CELL, SLOPE = 0.08, 0.14, 12, 1.0, 30
+#: [inch].
+LETTER, LINE, LETTERS, CELL = 0.08, 0.14, 12, 1.0
+#: Letters of a line of a name above a panel, or beside a table.
+LONG = 20
 
 
 def plot_study(study: Study) -> Iterator[tuple[str, Picture]]:
@@ -82,18 +84,19 @@ def _scatter(study: Study, conditions: list[str], *, narrow: bool) -> Picture:
     )
     figure.narrow = partial(_scatter, study, conditions, narrow=True)
     grid = figure.subplots(rows, columns, squeeze=False, sharex=True, sharey=True)
+    shades = colours(study.laws)
     for (row, column), ax in np.ndenumerate(grid):
         place = row * columns + column
         if place >= len(panels):
             ax.remove()
             continue
         law, condition = panels[place]
-        _panel(ax, study, law, condition)
+        _panel(ax, study, law, condition, shades[law])
         if row == 0 or named:
             name = f"{law}, {condition}" if narrow and len(conditions) > 1 else law
             ax.annotate(
-                name, (0.5, 1), (0, 22), "axes fraction", textcoords="offset points",
-                ha="center", fontweight="bold", color=colour(law),
+                _wrapped(name, LONG), (0.5, 1), (0, 22), "axes fraction", textcoords="offset points",
+                ha="center", fontweight="bold", color=shades[law],
             )  # fmt: skip
         if column == 0:
             ax.set_ylabel("deviation [mm]" if narrow else f"{condition}\ndeviation [mm]")
@@ -147,7 +150,7 @@ def _summaries(study: Study, conditions: list[str]) -> list[str]:
     return [f"{name}: {summaries[name]}" for name in conditions if len(conditions) > 1]
 
 
-def _panel(ax: Axes, study: Study, law: str, condition: str) -> None:
+def _panel(ax: Axes, study: Study, law: str, condition: str, shade: str) -> None:
     runs = study.runs(law, condition)
     part = {name: values[runs] for name, values in study.columns.items()}
     swing = np.clip(1e3 * part["swing_m"], LEAST_SWING, MOST)
@@ -161,7 +164,7 @@ def _panel(ax: Axes, study: Study, law: str, condition: str) -> None:
         (~there, CROSS),
     )
     for which, style in marks:
-        ax.plot(swing[which], deviation[which], ls="", color=colour(law), **style)
+        ax.plot(swing[which], deviation[which], ls="", color=shade, **style)
     ax.set_xscale("log")
     ax.set_yscale("symlog", linthresh=0.1)
     ax.set_xlim(LEAST_SWING / 2, 2 * MOST)
@@ -214,19 +217,19 @@ def _overview(study: Study, *, narrow: bool) -> Picture:
     drawn = [
         [None if r.most_drawn_J is None else 1e3 * r.most_drawn_J for r in line] for line in every
     ]
-    wrapped = [_wrapped(law) for law in laws]
-    cell = max(CELL, LETTER * max(len(line) for name in wrapped for line in name.split("\n")))
-    below = LINE * max(1 + name.count("\n") for name in wrapped)
-    beside = LETTER * max(map(len, names))
-    sloping = narrow and (5 - beside) / len(laws) < cell
-    if sloping:
-        below = LETTER * max(map(len, laws)) * np.sin(np.radians(SLOPE))
+    across, down = [_wrapped(law) for law in laws], names
+    if narrow and _turned(laws, names):
+        across, down = names, [_wrapped(law, LONG) for law in laws]
+        good, still, drawn = ([*map(list, zip(*one, strict=True))] for one in (good, still, drawn))
+    upright = narrow and (5 - _wide(down)) / len(across) < _wide(across)
+    below = _wide(across) if upright else _high(across)
     if narrow:
-        figure = new_figure(5, 2.2 + 2 * below + 0.6 * len(names))
+        row = 0.6 if down is names else max(0.36, LINE + _high(down))
+        figure = new_figure(5, 2.2 + 2 * (below + row * len(down)))
         left, right = figure.subplots(2, 1)
     else:
-        panel = max(3.2, cell * len(laws))  # a title has room
-        figure = new_figure(beside + 2 * panel, 1.3 + below + 0.24 * len(names))
+        panel = max(3.2, max(CELL, _wide(across)) * len(laws))  # a title has room
+        figure = new_figure(_wide(down) + 2 * panel, 1.3 + below + 0.24 * len(names))
         left, right = figure.subplots(1, 2, sharey=True)
     figure.narrow = partial(_overview, study, narrow=True)
     _table(left, good, {"cmap": "RdYlBu", "vmin": 0, "vmax": 100}, _short, still, narrow=narrow)
@@ -240,14 +243,27 @@ def _overview(study: Study, *, narrow: bool) -> Picture:
         fontsize="medium",
     )
     for ax in (left, right):
-        if sloping:
-            ax.set_xticks(range(len(laws)), laws, fontsize="small", rotation=SLOPE, ha="right")
-        else:
-            ax.set_xticks(range(len(laws)), wrapped, fontsize="small")
-        ax.set_yticks(range(len(names)), names)
+        ax.set_xticks(range(len(across)), across, fontsize="small", rotation=90 * upright)
+        ax.set_yticks(range(len(down)), down)
         ax.tick_params(length=0)
         ax.spines[:].set_visible(False)
     return figure
+
+
+def _turned(laws: list[str], names: list[str]) -> bool:
+    """Return whether laws stand beside the tables in one column of a journal: below, their names have no room."""
+    room = (5 - _wide(names)) / len(laws)
+    return room < _wide([_wrapped(law) for law in laws]) and len(names) <= len(laws)
+
+
+def _wide(names: list[str]) -> float:
+    """Return the room that names take beside a table [inch]."""
+    return LETTER * max(len(line) for name in names for line in name.split("\n"))
+
+
+def _high(names: list[str]) -> float:
+    """Return the room that names take below a table [inch]."""
+    return LINE * max(1 + name.count("\n") for name in names)
 
 
 def _percent(count: int | None, hands: int) -> float | None:
@@ -284,11 +300,11 @@ def _table(
         )  # fmt: skip
 
 
-def _wrapped(law: str) -> str:
+def _wrapped(law: str, letters: int = LETTERS) -> str:
     """Return the name of a law in lines of few letters, broken behind hyphens and between words."""
     lines = [""]
-    for part in re.findall(r"[^- ]+[- ]*|[- ]+", law):
-        if lines[-1] and len(lines[-1]) + len(part.rstrip()) > LETTERS:
+    for part in re.findall(r"[^-_ ]+[-_ ]*|[-_ ]+", law):
+        if lines[-1] and len(lines[-1]) + len(part.rstrip()) > letters:
             lines.append("")
         lines[-1] += part
     return "\n".join(line.rstrip() for line in lines)
