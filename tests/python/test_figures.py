@@ -396,7 +396,7 @@ def test_what_lies_in_the_grey_area_is_exact_and_still_and_not_always_good() -> 
     assert ax.get_title(loc="left") == "0 of 2 good"
     [grey] = ax.collections
     box = grey.get_datalim(ax.transData)
-    [rings] = [line for line in ax.lines if line.get_markerfacecolor() == "none"]
+    [rings] = [line for line in ax.lines if line.get_markerfacecolor() == "white"]
     assert len(rings.get_xydata()) == found.columns["exact_and_still"].sum() > 0
     assert all(box.contains(x, y) for x, y in rings.get_xydata())
     [key] = scatter.legends
@@ -497,6 +497,17 @@ def test_an_overview_writes_energies_with_their_unit_and_names_level() -> None:
         assert [name.get_text() for name in names] == ["tca", "lag-\ncompensator", "ebac"]
         assert {name.get_rotation() for name in names} == {0.0}
     check_inside(overview)
+
+
+def test_hands_that_fail_show_on_top_of_good_ones() -> None:
+    base = ebac.Scenario(seconds=3.0)
+    found = study(Operators.grid()[:20], ["lag-compensator"], ["d1K20"], base=base)
+    (panel,) = dict(plot_study(found))["hands"].axes
+    good, ring, cross = panel.get_lines()
+    assert 0 < len(good.get_xdata()) < 20
+    assert len(good.get_xdata()) + len(ring.get_xdata()) + len(cross.get_xdata()) == 20
+    assert good.get_zorder() <= ring.get_zorder() <= cross.get_zorder()
+    assert ring.get_markerfacecolor() == "white"  # not the good ones behind it
 
 
 LONG_NAMES = {

@@ -27,10 +27,11 @@ if TYPE_CHECKING:
 PAGE, ABREAST, NAMED = 5, 5, 4
 #: What is shown of swing and deviation [mm]; beyond lies on the edge.
 LEAST_SWING, MOST = 1e-4, 100.0
-#: Where a hand is exact and still; the mark of a good one, of one whose force is not quiet, and of any other.
+#: Where a hand is exact and still; the mark of a good one, of one whose force is not quiet, which shows on top of good
+#: ones, and of any other.
 EXACT = "0.88"
 GOOD: dict[str, Any] = {"marker": "o", "ms": 4, "mew": 0, "alpha": 0.6}
-RING: dict[str, Any] = {"marker": "o", "ms": 4, "mew": 0.9, "mfc": "none"}
+RING: dict[str, Any] = {"marker": "o", "ms": 4, "mew": 0.9, "mfc": "white"}
 CROSS: dict[str, Any] = {"marker": "x", "ms": 5, "mew": 1.1}
 #: How opaque the colours of a table are, and below which luminance its text is white.
 OPAQUE, DARK = 0.75, 0.45
