@@ -18,6 +18,7 @@ from typer.testing import CliRunner
 import ebac
 from ebac.cli import app
 from ebac.plot import plot_zwidth, save
+from ebac.plot.save import fitted
 from ebac.plot.zwidth import MARKS
 from ebac.studies.zwidth import (
     CRITERIA,
@@ -307,7 +308,7 @@ def test_the_figure_has_every_law_and_ceiling(found: ZWidth) -> None:
     figure = plot_zwidth(found)
     labels = [text.get_text() for text in figure.legends[0].get_texts()]
     assert labels[:2] == ["direct", "eba"]
-    assert len(labels) == 2 + 1 + 1
+    assert len(labels) == 2 + 1 + 1 + 1
     assert "end of the search, 100 kN/m" in labels
     figure.savefig("/dev/null", format="svg")
 
@@ -350,6 +351,54 @@ def test_borders_that_coincide_all_remain_visible_and_a_law_without_one_is_named
     assert np.allclose(1e3 * first, found.most_stiffness)
     assert (second < 0.99 * first).all()
     assert (second > 0.8 * first).all()
+
+
+def test_a_damping_at_which_a_law_holds_no_wall_has_an_open_mark_at_the_lower_edge(
+    found: ZWidth,
+) -> None:
+    border = np.array([[[0.0, 2e3]], [[0.0, 1e3]], [[0.0, 0.0]]])  # the last one is named above
+    three = replace(
+        found,
+        laws=("direct", "eba", "ebac"),
+        delays=(1,),
+        spectral=found.spectral[:1],
+        limits=dict.fromkeys(CRITERIA, border),
+    )
+    panel = plot_zwidth(three).axes[0]
+    marks = [one for one in panel.lines if one.get_markerfacecolor() == "white"]
+    direct, eba, ebac, explained = (np.asarray(one.get_ydata(), float) for one in marks)
+    assert direct[0] == panel.get_ylim()[0]
+    assert eba[0] > 1.05 * direct[0]  # beside it, not on it
+    assert np.isnan([direct[1], eba[1], *ebac]).all()
+    assert len(explained) == 0
+    assert "no wall at this damping" in labels(panel)
+    whole = {name: np.full_like(border, 2e3) for name in CRITERIA}
+    assert "no wall at this damping" not in labels(
+        plot_zwidth(replace(three, limits=whole)).axes[0]
+    )
+
+
+@pytest.mark.parametrize("held", [0.0, 1.0])
+def test_one_column_labels_every_decade_and_heads_its_panels_closely(
+    held: float, found: ZWidth
+) -> None:
+    limits = {
+        name: np.array([values[0], held * values[1]]) for name, values in found.limits.items()
+    }
+    long = replace(found, laws=("direct", "a law with quite a long name"), limits=limits)
+    figure = plot_zwidth(long).narrow()  # type: ignore[misc]
+    with fitted(figure, 89 / 25.4):
+        figure.draw_without_rendering()
+        panel = figure.axes[0]
+        low, high = panel.get_ylim()
+        labels = panel.get_yticklabels()
+        shown = [text.get_text() for text in labels if low <= text.get_position()[1] <= high]
+        assert shown == ["0.1", "1", "10", "100"]
+        (heading,) = panel.texts
+        assert heading.get_text() == "usable"
+        above = panel._left_title if held == 0 else panel.patch  # type: ignore[attr-defined]
+        gap = heading.get_window_extent().y0 - above.get_window_extent().y1
+        assert 0 <= gap < 12 / 72 * figure.dpi
 
 
 def test_every_searched_damping_has_a_mark_and_no_two_laws_the_same(found: ZWidth) -> None:

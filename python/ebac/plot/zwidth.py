@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.ticker import MaxNLocator
+from matplotlib.ticker import LogLocator, MaxNLocator
+from numpy.typing import NDArray
 
 from ebac._util import formatting
 from ebac._util.arrays import Values
@@ -22,8 +23,12 @@ if TYPE_CHECKING:
 #: Width of a border and size of its marks [points]; the height of a panel [inch], and in one column.
 WIDTH, MARK = 1.4, 4.0
 HEIGHT, NARROW_HEIGHT = 2.8, 1.9
+#: Letters of a line of the names above a panel, and in one column; room for such a line [points].
+LETTERS, NARROW_LETTERS, LINE = 44, 26, 9
 #: One mark per law, in their order.
 MARKS = "osD^v<>PXhp*d"
+#: The mark of a damping at which a law holds no wall.
+OPEN: dict[str, Any] = {"ls": "", "ms": MARK, "mfc": "white", "mew": 0.9, "zorder": 3}
 #: The criteria that can be drawn: the label of a panel.
 LABELS = {"usable": "usable", "energy": "at most {} mJ", "quiet": "quiet", "still": "still"}
 #: The ceilings: how each is drawn, in the row of panels of its criterion.
@@ -53,10 +58,10 @@ def plot_zwidth(found: ZWidth, criteria: Sequence[str] = ("usable", "energy")) -
     Returns
     -------
     Figure
-        One column of panels per delay, with a mark at every wall damping that was searched. A law that holds no wall,
-        however soft, is named above the panel, and "none" stands in the legend behind one that holds none in any of
-        them; one with "none" at its bar is never quiet. Borders that coincide are drawn side by side, the true one on
-        top.
+        One column of panels per delay, with a mark at every wall damping that was searched; it is open and lies on the
+        lower edge where a law holds no wall, however soft. A law that holds none at any damping is named above the
+        panel, and "none" stands in the legend behind one that holds none in any of them; one with "none" at its bar is
+        never quiet. Borders that coincide are drawn side by side, the true one on top.
 
     Raises
     ------
@@ -78,25 +83,25 @@ def _draw(found: ZWidth, criteria: list[str], *, narrow: bool) -> Picture:
     ratios = [panel] * down + [bars]
     grid = figure.add_gridspec(len(ratios), abreast * delays, height_ratios=ratios)
     first: Axes | None = None
+    headings: dict[Axes, str] = {}
     for row, column in np.ndindex(down, abreast):
         c, d = (column, row) if narrow else (row, column)
         place = grid[row, delays * column : delays * (column + 1)]
         ax = figure.add_subplot(place, sharex=first, sharey=first)
         first = first or ax
         _borders(ax, found, criteria[c], d, panel)
+        _name_absent(ax, found, criteria[c], d, NARROW_LETTERS if narrow else LETTERS)
         words = LABELS[criteria[c]].format(f"{1e3 * found.epsilon:g}")
         samples = "1 sample" if found.delays[d] == 1 else f"{found.delays[d]} samples"
         across, beside = (words, f"delay {samples}") if narrow else (f"delay {samples}", words)
         if row == 0:
-            ax.annotate(
-                across, (0.5, 1), (0, 34 if narrow else 24), "axes fraction", textcoords="offset points",
-                ha="center", fontweight="bold",
-            )  # fmt: skip
+            headings[ax] = across
         if column == 0:
             ax.set_ylabel(f"{beside}\nup to K [kN/m]")
         if row == down - 1:
             ax.set_xlabel("wall damping B [N s/m]")
         ax.tick_params(labelleft=column == 0, labelbottom=row == down - 1)
+    _head(headings)
     below: Axes | None = None
     for d, delay in enumerate(found.delays):
         ax = figure.add_subplot(grid[-1, abreast * d : abreast * (d + 1)], sharey=below)
@@ -139,6 +144,24 @@ def _title(found: ZWidth, criteria: list[str]) -> str:
     return "\n".join(lines)
 
 
+def _head(headings: dict[Axes, str]) -> None:
+    """Write a heading above each panel, all at one height, just above the names of laws that stand there."""
+    lines = max(len(ax.get_title(loc="left").splitlines()) for ax in headings)
+    for ax, words in headings.items():
+        ax.annotate(
+            words, (0.5, 1), (0, 5 + LINE * lines), "axes fraction", textcoords="offset points",
+            ha="center", fontweight="bold",
+        )  # fmt: skip
+
+
+def _name_absent(ax: Axes, found: ZWidth, criterion: str, d: int, letters: int) -> None:
+    """Name the laws that hold no wall in a panel."""
+    limits = found.limits[criterion][:, d]
+    if absent := [law for law, limit in zip(found.laws, limits, strict=True) if not limit.any()]:
+        text = "\n".join(wrap(f"no wall: {', '.join(absent)}", letters, break_on_hyphens=False))
+        ax.set_title(text, fontsize="x-small", color="0.35", loc="left", pad=3)
+
+
 def _borders(ax: Axes, found: ZWidth, criterion: str, d: int, height: float) -> None:
     ax.set_ylim(1e-3 * found.least_stiffness, 1.3e-3 * found.most_stiffness)
     ax.set_yscale("log")  # after the limits: it finds none where all lines lie at the top
@@ -159,18 +182,29 @@ def _borders(ax: Axes, found: ZWidth, criterion: str, d: int, height: float) -> 
         zorder=0,
         label=f"end of the search, {1e-3 * found.most_stiffness:g} kN/m",
     )
-    if absent := [law for law, limit in zip(shades, drawn, strict=True) if np.isnan(limit).all()]:
-        text = "\n".join(wrap(f"no wall: {', '.join(absent)}", 44))
-        ax.set_title(text, fontsize="x-small", color="0.35", loc="left", pad=3)
+    _failures(ax, found, np.isnan(drawn), np.exp((high - low) * 1.2 * MARK / (72 * 0.8 * height)))
     for (name, style), (dampings, ceiling) in zip(
         CEILINGS.get(criterion, {}).items(), _ceilings(found, criterion, d), strict=True
     ):
         ax.plot(dampings, _kilo(ceiling), **style, label=name)
+    ax.yaxis.set_major_locator(LogLocator(numticks=10))  # every decade
     ax.yaxis.set_major_formatter("{x:g}")
     ax.xaxis.set_major_locator(MaxNLocator(5))
     ax.xaxis.set_major_formatter("{x:g}")
     dress(ax, "")
     ax.margins(x=0.03)
+
+
+def _failures(ax: Axes, found: ZWidth, failed: NDArray[np.bool_], step: float) -> None:
+    """Mark where laws that hold some walls hold none at a damping: on the lower edge, one above the other."""
+    failed = failed & ~failed.all(axis=1, keepdims=True)
+    places = side_by_side(np.where(failed, 1e-3 * found.least_stiffness, np.nan), step)
+    for i, (shade, place) in enumerate(zip(colours(found.laws).values(), places, strict=True)):
+        ax.plot(
+            found.dampings, place, color=shade, marker=MARKS[i % len(MARKS)], **OPEN, clip_on=False
+        )  # fmt: skip
+    if failed.any():
+        ax.plot([], [], color="0.3", marker="o", **OPEN, label="no wall at this damping")
 
 
 def _ceilings(found: ZWidth, criterion: str, d: int) -> list[tuple[Values, Values]]:
