@@ -143,6 +143,12 @@ def test_a_map_that_was_killed_half_way_continues_and_has_the_same_bits(tmp_path
     assert_same_bits(resumed, stability_map("ebac", xs=xs, ys=ys, base=base))
 
 
+def test_a_printed_map_has_its_symbols_in_plain_text() -> None:
+    found = small(x="hand-stiffness", xs=(100.0, 300.0))
+    assert "stiffness of the hand K0 [N/m] 100 to 300, wall stiffness K [N/m]" in repr(found)
+    assert "$" not in repr(found)
+
+
 def test_the_arrays_of_a_map_are_kept(tmp_path: Path) -> None:
     found = small()
     found.to_npz(tmp_path / "map.npz")

@@ -2,6 +2,7 @@
 
 import re
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -179,6 +180,15 @@ def test_a_folder_that_does_not_exist_is_named_as_asked(
         run("eba", seconds=1.0).save(path)
     assert caught.value.filename == str(path)
     assert "draft" not in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("away", "text"),
+    [(5.634e-3, "5.63 mm"), (0.9994, "999 mm"), (0.9996, "1000 mm"), (3.738, "3738 mm")],
+)
+def test_a_deviation_in_words_has_no_exponent(away: float, text: str, run: Run) -> None:
+    contact = replace(ebac.contact(run("ebac")), rest_m=away, ideal_m=0.0)
+    assert contact.verdict == f"quiet, too deep by {text}"
 
 
 def test_a_short_run_is_not_judged(run: Run) -> None:

@@ -39,8 +39,14 @@ def verdict(contact: Contact) -> str:
     if contact.exact:
         return "exact, force not quiet"
     where = "too deep" if deviation > 0 else "not deep enough"
-    away = f"{where} by {1e3 * abs(deviation):.3g} mm"
+    away = f"{where} by {in_mm(abs(deviation))}"
     return f"quiet, {away}" if contact.quiet else f"{away}, force not quiet"
+
+
+def in_mm(length: float) -> str:
+    """Return a length [m] in millimetres, three digits of it, without an exponent where it is long."""
+    shown = 1e3 * length
+    return f"{shown:.0f} mm" if shown >= 999.5 else f"{shown:.3g} mm"
 
 
 def force_verdict(

@@ -264,14 +264,14 @@ def _why(run: dict[str, Any]) -> str:
         return f"stopped on fault {_core.Fault(int(run['fault'])).name.lower()}"
     if run["diverged"]:
         return f"diverged after {run['ticks']} ticks"
-    swing, away = 1e3 * run["swing_m"], 1e3 * (run["rest_m"] - run["ideal_m"])
     if not run["still"]:
-        return f"swings by {swing:.3g} mm"
+        return f"swings by {verdicts.in_mm(run['swing_m'])}"
     reasons = []
     if not run["quiet"]:
         numbers = (run[name] for name in ("force_quiet", "force_settled_s", "jumps", "perceived"))
         reasons.append(f"force {verdicts.force_verdict(*numbers)}")
     if not (run["exact_and_still"] and reasons):
+        away = run["rest_m"] - run["ideal_m"]
         deep = "too deep" if away > 0 else "not deep enough"
-        reasons.append(f"rests {abs(away):.3g} mm {deep}")
+        reasons.append(f"rests {verdicts.in_mm(abs(away))} {deep}")
     return "; ".join(reasons)

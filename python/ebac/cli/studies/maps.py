@@ -179,7 +179,6 @@ def _show(maps: list[StabilityMap]) -> None:
     output.indented(formatting.describe(maps[0].base).replace("; ", "\n"))
 
 
-def _range(axis: Any, values: Any) -> str:
+def _range(axis: MapAxis, values: Any) -> str:
     how = ", logarithmic" if axis.logarithmic else ""
-    symbol = axis.symbol.strip("$").replace("_", "")
-    return f"{symbol} {values[0]:g} to {values[-1]:g} {axis.unit} ({len(values)} values{how})"
+    return f"{axis.plain_symbol} {values[0]:g} to {values[-1]:g} {axis.unit} ({len(values)} values{how})"

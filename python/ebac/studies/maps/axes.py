@@ -42,8 +42,13 @@ class MapAxis:
 
     @property
     def label(self) -> str:
-        """Name, symbol and unit."""
+        """Name, symbol and unit, as a figure shows them."""
         return f"{self.name} {self.symbol} [{self.unit}]"
+
+    @property
+    def plain_symbol(self) -> str:
+        """The symbol in plain text."""
+        return self.symbol.strip("$").replace("_", "")
 
     def values(
         self, count: int, low: float | None = None, high: float | None = None

@@ -133,6 +133,10 @@ class StabilityMap:
         )
         return (
             f"<StabilityMap of {self.law}, simulated, {len(self.xs)} x {len(self.ys)} runs: "
-            f"{along.label} {self.xs[0]:g} to {self.xs[-1]:g}, {up.label} {self.ys[0]:g} to {self.ys[-1]:g}; "
+            f"{_range(along, self.xs)}, {_range(up, self.ys)}; "
             f"of the area {shares}{why}>"
         )
+
+
+def _range(axis: MapAxis, values: Values) -> str:
+    return f"{axis.name} {axis.plain_symbol} [{axis.unit}] {values[0]:g} to {values[-1]:g}"
