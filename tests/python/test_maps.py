@@ -1,5 +1,6 @@
 """Stability maps: a grid of scenarios, its score, its figure."""
 
+import itertools
 import json
 import os
 import signal
@@ -17,6 +18,7 @@ from typer.testing import CliRunner
 import ebac
 from ebac.cli import app
 from ebac.plot import plot_map
+from ebac.plot.save import fitted
 from ebac.studies.maps import AXES, PRESETS, StabilityMap, stability_map
 from ebac.studies.zwidth import stiffness_limit
 
@@ -218,7 +220,7 @@ def test_the_figure_names_a_line_only_where_there_is_one_and_has_walls_in_kilone
     figure.draw_without_rendering()
     verdicts = figure.axes[2]
     assert verdicts.get_ylabel() == "wall stiffness K [kN/m]"
-    assert "50" in [tick.get_text() for tick in verdicts.get_yticklabels()]
+    assert "10" in [tick.get_text() for tick in verdicts.get_yticklabels()]
 
 
 @pytest.mark.parametrize(
@@ -261,6 +263,19 @@ def test_every_label_of_a_wall_is_in_kilonewtons(ys: tuple[float, ...]) -> None:
     shown = [(place, text.get_text()) for place, text in labels if low <= place <= high]
     assert len(shown) >= 2
     assert all(float(text) == pytest.approx(1e-3 * place) for place, text in shown)
+
+
+@pytest.mark.parametrize("name", ["hand-mass", "hand-stiffness"])
+def test_labels_of_a_logarithmic_axis_do_not_overlap_in_one_column(name: str) -> None:
+    figure = plot_map(small(x=name, xs=AXES[name].values(9)))
+    with fitted(figure, 89 / 25.4):
+        figure.draw_without_rendering()
+        axis = figure.axes[2].xaxis
+        low, high = axis.get_view_interval()
+        labels = zip(axis.get_majorticklocs(), axis.get_majorticklabels(), strict=True)
+        boxes = [text.get_window_extent() for place, text in labels if low <= place <= high]
+    assert len(boxes) >= 2
+    assert all(one.x1 < other.x0 for one, other in itertools.pairwise(boxes))
 
 
 # --- ebac map ---

@@ -21,6 +21,8 @@ if TYPE_CHECKING:
 #: Colours of the verdicts, best first; without an ideal rest none is "still, not exact".
 VERDICT_COLOURS = ("#0072b2", "#56b4e9", "#c9dff0", "#f0c05a", "#8c2d04")
 UNJUDGED_COLOURS = VERDICT_COLOURS[:2] + VERDICT_COLOURS[3:]
+#: A logarithmic axis to less than so many times its start has labels within its decades.
+SHORT = 25
 LINE: dict[str, Any] = {"colors": "black", "linewidths": 1.2, "linestyles": "solid"}
 
 
@@ -54,10 +56,10 @@ def plot_map(found: StabilityMap) -> Picture:
     else:
         _deviation(figure, grid[1, 1], found)
     for ax in lowest:
-        _axis(ax, along, "x")
+        _axis(ax, along, "x", found.xs)
         ax.tick_params(which="both", labelbottom=True)
     for ax in grid[:, 0]:
-        _axis(ax, up, "y")
+        _axis(ax, up, "y", found.ys)
     figure.suptitle(_title(found), fontsize="medium")
     return figure
 
@@ -151,10 +153,11 @@ def _cells(centres: Values, logarithmic: bool) -> Values:
     return np.exp(edges) if logarithmic else edges
 
 
-def _axis(ax: Axes, quantity: MapAxis, which: str) -> None:
+def _axis(ax: Axes, quantity: MapAxis, which: str, values: Values) -> None:
     kilo = quantity.unit == "N/m" and quantity.low >= 1e3  # a wall, not a hand
     unit = f"[{'k' * kilo}{quantity.unit}]"
     getattr(ax, f"set_{which}label")(quantity.label.replace(f"[{quantity.unit}]", unit))
     if quantity.logarithmic:
         getattr(ax, f"set_{which}scale")("log")
-        plain_decades(getattr(ax, f"{which}axis"), 1000.0**kilo)
+        steps = (1, 3) if values[-1] < SHORT * values[0] else (1,)
+        plain_decades(getattr(ax, f"{which}axis"), 1000.0**kilo, steps)

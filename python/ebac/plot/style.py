@@ -172,9 +172,9 @@ def dress(ax: Axes, ylabel: str) -> None:
     ax.spines[["top", "right"]].set_visible(False)
 
 
-def plain_decades(axis: Axis, unit: float = 1.0) -> None:
-    """Label a logarithmic axis at 1, 2 and 5 of each decade, in plain numbers of a unit."""
-    axis.set_major_locator(LogLocator(subs=(1, 2, 5)))
+def plain_decades(axis: Axis, unit: float = 1.0, steps: tuple[int, ...] = (1, 2, 5)) -> None:
+    """Label a logarithmic axis at 1, 2 and 5 of each decade, or at other steps, in plain numbers of a unit."""
+    axis.set_major_locator(LogLocator(subs=steps))
     axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value / unit:g}"))
     axis.set_minor_formatter(NullFormatter())
 
