@@ -15,7 +15,7 @@ HOUR, SURFACE = 3600.0, 0.01
 
 @dataclass(frozen=True)
 class Swung:
-    """A hand: mass [kg], damping [N s/m], stiffness [N/m]; it pushes with mean and amplitude [N] at a frequency [Hz]."""
+    """A hand: mass [kg], damping [N s/m], stiffness [N/m]; it pushes with mean and amplitude [N], so often [Hz]."""
 
     mass: float
     damping: float
@@ -75,7 +75,9 @@ def energy(printed: Printed) -> str:
         [one.label, one.where, *(f"{1e3 * row[f'{noise:g} N']:.0f} mJ" for noise in NOISES)]
         for one, row in zip(SWINGING, rows, strict=True)
     ]
-    return table(["hand", "wall, delay", "no noise", *(f"{noise:g} N" for noise in NOISES[1:])], lines)
+    return table(
+        ["hand", "wall, delay", "no noise", *(f"{noise:g} N" for noise in NOISES[1:])], lines
+    )
 
 
 def _measure() -> list[Row]:

@@ -487,3 +487,11 @@ def test_the_command_notes_what_the_library_warns_of(tmp_path: Path) -> None:
     said = " ".join(told.stderr.split())
     assert "Note: hands that rest before the wall, 1 of 2 under d1K10" in said
     assert ".py" not in said
+
+
+def test_a_hand_of_ones_own_in_the_base_is_not_lost_in_silence() -> None:
+    base = ebac.Scenario(hand=ebac.presets.hand("reflex"), seconds=0.5)
+    with pytest.warns(
+        UserWarning, match="the hand of base, Reflex, gives way to those of the population"
+    ):
+        study(FEW, ["direct"], ["K8"], base=base)

@@ -189,7 +189,11 @@ class PopulationOptions:
     hands: Annotated[
         int | None,
         typer.Option(
-            help="Number of random hands.", show_default="500", min=1, rich_help_panel=POPULATION
+            help="Number of random hands.",
+            show_default="500",
+            min=1,
+            max=1_000_000,
+            rich_help_panel=POPULATION,
         ),
     ] = None
     seed: Annotated[

@@ -55,7 +55,7 @@ def fit_arm(
     recordings : Recording or sequence of them
         Recordings with position and force of the hand.
     targets : Target or sequence of them, optional
-        Target of the hand in each recording; default: held in one place.
+        Target of the hand in each recording; default: the target that a recording has, else held in one place.
     fixed : mapping, optional
         Values that are not fitted, by name: `{"M0": 0.2}` [kg], B0 [N s/m], K0 [N/m], X0, X0/2 [m], delay, onset [s].
         If a log lacks the motor's force, the delay that its steps cause is fitted all the same; see `ArmResult.notes`.
@@ -88,8 +88,10 @@ def fit_arm(
     require_recordings(recordings, "fit_arm", several=True)
     if isinstance(recordings, Recording):
         recordings = [recordings]
-    if targets is None or isinstance(targets, Target):
-        targets = [targets or Target.held()] * len(recordings)
+    if targets is None:
+        targets = [Target.recorded(r) for r in recordings]
+    elif isinstance(targets, Target):
+        targets = [targets] * len(recordings)
     _check(recordings, targets, starts, robust)
     recordings = with_own_names(recordings)
     parameters = lay_out(

@@ -125,6 +125,13 @@ class Target:
         return cls(path=np.asarray(path, dtype=float))
 
     @classmethod
+    def recorded(cls, recording: Recording) -> Target:
+        """Return the target that a recording has, as a column or in its scenario; else one that stays in one place."""
+        if recording.target is not None:
+            return cls.following(recording.target)
+        return cls.held() if recording.path is None else cls.along(recording.path, recording.t)
+
+    @classmethod
     def of(cls, hand: Hand, t: NDArray[np.float64], axis: int = 0) -> Target:
         """Return what an experimenter knows of a simulated hand's target along an axis: its times, not its levels."""
         require(hand, Hand, "Target.of", "a Hand")

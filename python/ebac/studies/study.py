@@ -66,7 +66,8 @@ def study(
     Warns
     -----
     UserWarning
-        When hands come to rest before the surface.
+        When hands come to rest before the surface, and when the hand of `base` has a model, which no hand of a
+        population has.
     """
     require(population, Operators, "ebac.study", "a population, an Operators")
     if conditions is None:
@@ -75,6 +76,12 @@ def study(
     if not chosen:
         raise ValueError("no condition given: a study needs at least one")
     named = name_laws(laws)
+    if base is not None and base.hand.model is not None:
+        warnings.warn(
+            f"the hand of base, {type(base.hand.model).__name__}, gives way to those of the population; a Condition "
+            "whose change sets it has it under every law",
+            stacklevel=2,
+        )
     if progress is not None:
         hands = sum(len(c.drives) or len(population) for c in chosen)
         progress(0, hands * len(named))  # the scenarios of many take seconds

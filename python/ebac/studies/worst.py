@@ -113,7 +113,7 @@ def worst(
     law: AnyLaw = "ebac",
     condition: str | Condition = "d1K10",
     *,
-    family: Sequence[str] | None = None,
+    family: str | Sequence[str] | None = None,
     evaluations: int = EVALUATIONS,
     seed: int = 1,
     seconds: float | None = None,
@@ -134,7 +134,7 @@ def worst(
         As `simulate` takes it.
     condition : str or Condition
         One that changes device, timing or wall; the hand is what is searched.
-    family : sequence of str, optional
+    family : str or sequence of str, optional
         Names of `families`; default: all.
     evaluations : int
         Runs per family, at least 40; a search of fewer than the default misses worse hands.
@@ -172,7 +172,8 @@ def worst(
     declared = getattr(made, "pull", None)
     most = pull if pull is not None else max(PULL, declared or 0.0)
     _check(evaluations=(evaluations, 40, 10**7), seed=(seed, 0, 2**31 - 1), pull=(most, 1e-3, 1e3))
-    wanted = [find_family(n, most) for n in dict.fromkeys(family or families(most))]
+    names = [family] if isinstance(family, str) else family or families(most)
+    wanted = [find_family(n, most) for n in dict.fromkeys(names)]
     if seconds is not None:
         _check(seconds=(seconds, 0.1, 3600))
     if pull_rate is not None:
