@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import inspect
+import warnings
 from collections.abc import Mapping, Sequence
 from typing import (
     TYPE_CHECKING,
@@ -212,6 +213,11 @@ def design(
         (`Device(sensor=None)`); those of a design are 0 then.
     TypeError
         For something that is no law, whose `step` or `reset` takes other arguments, or that cannot be copied.
+
+    Warns
+    -----
+    UserWarning
+        When a finished law of the core was made for another sample time.
     """
     if isinstance(law, Variant):
         return design(law.law, device, timing, **{**law.changes, **changes})
@@ -234,6 +240,12 @@ def design(
         raise TypeError(f"{law!r} is finished: make it with {', '.join(changes)}, or give its name")
     else:
         made = checked(law)
+        if is_core_law(made) and made.timing.dt != timing.dt:
+            warnings.warn(
+                f"{law_name(made)} is made for dt = {made.timing.dt:g} s and runs at {timing.dt:g} s: give its name or "
+                f"class to have it designed, changes as in Variant({law_name(made)!r}, {{'kp': 0.2}})",
+                stacklevel=3,
+            )
     if not fitted and is_core_law(made):
         _refuse_force_loop(made)
     elif not fitted and getattr(made, "observer", False):

@@ -178,6 +178,13 @@ def test_a_class_in_python_is_designed_for_each_scenario() -> None:
     )
 
 
+def test_a_finished_law_for_another_sample_time_is_told() -> None:
+    fast = scenarios(1)[0].replace(timing=ebac.Timing(dt=5e-4))
+    with pytest.warns(UserWarning, match="eba is made for dt = 0.001 s and runs at 0.0005 s"):
+        ebac.simulate(fast, ebac.EBA())
+    ebac.simulate(fast, ebac.EBA(timing=fast.timing))
+
+
 def test_names_of_laws_may_be_numbers() -> None:
     found = sweep(scenarios(1), {0.25: Spring(0.25), 0.5: Spring(0.5)})  # type: ignore[dict-item]
     assert list(found["law"]) == ["0.25", "0.5"]
