@@ -10,7 +10,8 @@
 namespace ebac {
 
 /// The account (D): energy taken in, and the largest force it can pay for over any motion, with all
-/// commands in flight.
+/// commands in flight. Proven on one axis: what readings can be wrong by is charged (`take_proven`).
+/// Along a direction oblique to n axes the errors of n readings add up: `count` is then sqrt(n) counts.
 ///
 /// A force F held for one interval gives out at most F^2/(4B); the force now behind the current
 /// loop at most the energy of its decay; and the position is known to one count, charged at the
