@@ -30,6 +30,9 @@ const char* plain_type(FieldKind kind) {
 }
 
 void assign(const FieldRow& field, void* target, py::handle value) {
+  // Python takes True for 1.
+  const bool truth = py::isinstance<py::bool_>(value);
+  if (truth != (field.kind == FieldKind::kBool)) throw py::cast_error();
   switch (field.kind) {
     case FieldKind::kDouble:
       field.in<double>(target) = value.cast<double>();
@@ -44,7 +47,6 @@ void assign(const FieldRow& field, void* target, py::handle value) {
       field.in<Fault>(target) = value.cast<Fault>();
       return;
     case FieldKind::kBool:
-      if (!py::isinstance<py::bool_>(value)) throw py::cast_error();
       field.in<bool>(target) = value.cast<bool>();
   }
 }
@@ -121,7 +123,8 @@ bool set_field(const FieldTable& table, void* target, const std::string& owner,
   try {
     assign(*field, target, value);
   } catch (const py::cast_error&) {
-    if (field->kind == FieldKind::kInt && py::isinstance<py::int_>(value)) {  // too large
+    const bool whole = py::isinstance<py::int_>(value) && !py::isinstance<py::bool_>(value);
+    if (field->kind == FieldKind::kInt && whole) {  // too large
       throw std::invalid_argument(
           range_message(owner, name, value.cast<double>(), field->unit, field->low, field->high));
     }

@@ -219,6 +219,10 @@ def design(
     UserWarning
         When a finished law of the core was made for another sample time.
     """
+    require(
+        device, (Device, DeviceFacts), "ebac.design", "a Device, or its DeviceFacts, behind the law"
+    )
+    require(timing, Timing, "ebac.design", "a Timing behind the device")
     if isinstance(law, Variant):
         return design(law.law, device, timing, **{**law.changes, **changes})
     fitted = device.sensor.fitted if isinstance(device, Device) else device.force_sensor

@@ -2,6 +2,7 @@
 
 import inspect
 import pickle
+import re
 import sys
 import threading
 from collections.abc import Callable, Iterator
@@ -331,3 +332,27 @@ def test_one_operator_can_be_chosen_by_its_number() -> None:
     assert hands[-1] == hands[[59]]
     with pytest.raises(IndexError):
         hands[60]
+
+
+@pytest.mark.parametrize(
+    ("call", "says"),
+    [
+        (lambda: ebac.sweep([1], ["ebac"]), "ebac.sweep takes a list of scenarios, each a Scenario, not 1"),
+        (lambda: ebac.sweep([ebac.Scenario()], "ebac", seed="a"), "sweep: seed = 'a': must be a whole number"),
+        (lambda: ebac.sweep([ebac.Scenario()], "ebac", designed_for=[1]), "designed_for takes pairs"),
+        (lambda: ebac.design("ebac", ebac.Timing(), ebac.Device()), "ebac.design takes a Device"),
+        (lambda: ebac.Wall(stiffness=True), "Wall.stiffness = True: must be a number in N/m"),
+        (lambda: ebac.Timing(delay=True), "Timing.delay = True: must be a whole number in samples"),
+    ],
+)  # fmt: skip
+def test_what_is_no_such_thing_is_refused_by_its_name(call: Any, says: str) -> None:
+    with pytest.raises(TypeError, match=re.escape(says)):
+        call()
+
+
+def test_a_condition_that_gives_nothing_is_refused_by_its_name() -> None:
+    nothing: Any = ebac.studies.Condition(
+        name="none", summary="gives nothing", change=lambda s: None
+    )
+    with pytest.raises(TypeError, match="condition none takes a change that returns a Scenario"):
+        ebac.study(ebac.Operators.grid()[:1], ["ebac"], [nothing])

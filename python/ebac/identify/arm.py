@@ -10,7 +10,7 @@ from time import perf_counter
 import numpy as np
 from numpy.typing import NDArray
 
-from ebac._util.arguments import number, whole
+from ebac._util.arguments import number, require, whole
 from ebac.identify.fit import Fitted
 from ebac.identify.informativeness import FASTEST
 from ebac.identify.intervals import Z95
@@ -90,8 +90,9 @@ def fit_arm(
         recordings = [recordings]
     if targets is None:
         targets = [Target.recorded(r) for r in recordings]
-    elif isinstance(targets, Target):
-        targets = [targets] * len(recordings)
+    else:
+        require(targets, (Target, Sequence), "fit_arm", "a Target, or one for each recording")
+        targets = [targets] * len(recordings) if isinstance(targets, Target) else targets
     _check(recordings, targets, starts, robust)
     recordings = with_own_names(recordings)
     parameters = lay_out(

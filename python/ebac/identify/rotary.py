@@ -95,7 +95,7 @@ def in_si(
             )
     for key, (quantity, unit) in found.items():
         if unit is not None:
-            if key in guessed and key not in units:
+            if key not in units:
                 remarks.append(f"{key}: in {unit}, as its heading says")
             continue
         kind = quantity or QUANTITIES[key][0]

@@ -55,6 +55,9 @@ class Condition:
 
     def made(self, changed: Scenario) -> Scenario:
         """Return a changed scenario with its observer, if it has one, designed from the believed facts."""
+        from ebac.scenario import Scenario
+
+        require(changed, Scenario, f"condition {self.name}", "a change that returns a Scenario")
         return to.observer_of(changed, *self.believed(changed))
 
 

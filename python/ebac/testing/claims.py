@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ebac._util.arguments import require
+from ebac._util.arguments import number, require
 from ebac.metrics import FEWEST_ROWS, STILL_SWING, TAIL_SHARE
 from ebac.trace import Trace
 
@@ -229,5 +229,5 @@ def _finite(name: str, values: NDArray[Any], trace: Trace) -> None:
 
 def _not_negative(**numbers: float) -> None:
     for name, value in numbers.items():
-        if not value >= 0:
+        if not number(name, value) >= 0:
             raise ValueError(f"{name} = {value}: must not be negative")

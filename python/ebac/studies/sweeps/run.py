@@ -11,7 +11,7 @@ from typing import Any, TypeAlias
 import numpy as np
 
 from ebac._core import Device, DeviceFacts, RunLimits, Timing
-from ebac._util.arguments import require
+from ebac._util.arguments import require, whole
 from ebac._util.progress import Progress
 from ebac.laws import AnyLaw, design, law_name
 from ebac.scenario import Scenario
@@ -170,7 +170,9 @@ def _distinct(known: Sequence[Known]) -> tuple[list[int], list[Known]]:
     found: dict[tuple[DeviceFacts, Timing], int] = {}
     places: list[int] = []
     distinct: list[Known] = []
-    for device, timing in known:
+    for pair in known:
+        require(pair, tuple, "designed_for", "pairs of Device or DeviceFacts, and Timing")
+        device, timing = pair
         facts = device.facts if isinstance(device, Device) else device
         place = found.setdefault((facts, timing), len(found))
         if place == len(distinct):
@@ -188,6 +190,8 @@ def _bundle(runs: int, *, shared: bool, stored: bool) -> int:
 def _check(scenarios: Sequence[Scenario], **numbers: Any) -> None:
     if not scenarios:
         raise ValueError("no scenario given: a sweep needs at least one")
+    for one in scenarios:
+        require(one, Scenario, "ebac.sweep", "a list of scenarios, each a Scenario")
     designed_for = numbers.pop("designed_for")
     if designed_for is not None and len(designed_for) != len(scenarios):
         raise ValueError(
@@ -195,5 +199,5 @@ def _check(scenarios: Sequence[Scenario], **numbers: Any) -> None:
         )
     for name, value in numbers.items():
         least = 0 if name == "seed" else 1
-        if value is not None and value < least:
+        if value is not None and whole(f"sweep: {name}", value) < least:
             raise ValueError(f"sweep: {name} = {value}: must be at least {least}")
