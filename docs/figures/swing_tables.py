@@ -37,7 +37,7 @@ class Swung:
         stiffness, delay = self.wall
         return f"{1e-3 * stiffness:g} kN/m, {plural(delay, 'sample')}"
 
-    def drawn(self, noise: float) -> float:
+    def drawn(self, noise: float, scale: float = 1.0) -> float:
         """Return the most energy that the hand has drawn within the hour [J]."""
         stiffness, delay = self.wall
         pushes = ebac.Sine(
@@ -46,7 +46,7 @@ class Swung:
             frequency=self.frequency,
         )
         scenario = ebac.Scenario(
-            device=ebac.Device(sensor=ebac.ForceSensor(noise=noise)),
+            device=ebac.Device(sensor=ebac.ForceSensor(noise=noise, scale=scale)),
             hand=ebac.Hand(
                 mass=self.mass, damping=self.damping, stiffness=self.stiffness, path=[pushes]
             ),
@@ -66,6 +66,35 @@ SWINGING = (
 )
 #: Standard deviations of the noise of the force sensor [N].
 NOISES = (0.0, 0.01, 0.03)
+
+
+#: Random hands that draw where the force sensor shows too little, and what it shows of a force.
+PUSHING = (
+    Swung(0.37, 51, 227, 11.1, 11.1, 1.34),
+    Swung(5.7, 77, 186, 14.0, 14.0, 0.8),
+    Swung(10, 60, 325, 3.41, 2.99, 1.0),
+)
+SCALES = (0.99, 0.998, 1.0, 1.002, 1.01)
+
+
+def scaled(printed: Printed) -> str:
+    """What each hand draws in an hour where the scale of the force is wrong."""
+
+    def measured() -> list[Row]:
+        return [{f"{scale:g}": one.drawn(0.03, scale) for scale in SCALES} for one in PUSHING]
+
+    rows = printed.kept("swung-scaled", measured)
+    lines = [
+        [one.label, *(f"{1e3 * row[f'{scale:g}']:.0f} mJ" for scale in SCALES)]
+        for one, row in zip(PUSHING, rows, strict=True)
+    ]
+    return table(["hand", *(_off(scale) for scale in SCALES)], lines)
+
+
+def _off(scale: float) -> str:
+    if scale == 1:
+        return "exact"
+    return f"{100 * abs(scale - 1):.2g} % too {'much' if scale > 1 else 'little'}"
 
 
 def energy(printed: Printed) -> str:

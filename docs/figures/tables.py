@@ -66,6 +66,7 @@ TABLES: dict[str, Callable[[Printed], str]] = {
     "held-energy": holding.energy,
     "held-limited": holding.limited,
     "swing-energy": swinging.energy,
+    "swing-scale": swinging.scaled,
     "limits-worst": limits.worst_hands,
     "limits-milliseconds": limits.milliseconds,
     "limits-counts": limits.counts,
@@ -83,7 +84,10 @@ TABLES: dict[str, Callable[[Printed], str]] = {
     "speed": laws.speed,
 }
 #: Left out unless asked for: what `speed` says depends on what else the machine does; the others take long.
-ASKED = {"speed", *(name for name in TABLES if name.startswith(("friction-", "held-", "limits-")))}
+ASKED = {
+    "speed",
+    *(name for name in TABLES if name.startswith(("friction-", "held-", "limits-", "swing-"))),
+}
 
 
 def main() -> None:
