@@ -11,6 +11,7 @@ namespace ebac {
 
 /// The account (D): energy taken in, and the largest force it can pay for over any motion, with all
 /// commands in flight. Proven on one axis: what readings can be wrong by is charged (`take_proven`).
+/// The error of the reading at the instant itself is not: half a count times the force of the last tick.
 /// Along a direction oblique to n axes the errors of n readings add up: `count` is then sqrt(n) counts.
 ///
 /// A force F held for one interval gives out at most F^2/(4B); the force now behind the current

@@ -11,9 +11,9 @@ _PLAIN = (bool, int, float, complex, str, bytes, type(None))
 
 
 def code_print(kind: type) -> str:
-    """Return the instructions of a class and of what they name in its module: functions, classes and constants.
+    """Return the instructions of a class and of what they name in its module: functions, classes and plain constants.
 
-    Of other modules nothing is taken, so a library that is updated is not seen.
+    Of other modules, and of arrays or tables that the code names, nothing is taken.
     """
     return "\n".join(_of(kind, kind.__module__, set()))
 

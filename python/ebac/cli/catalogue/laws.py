@@ -86,7 +86,7 @@ def _show_all(rows: list[dict[str, Any]]) -> None:
     output.show(grid)
     output.say(
         "passive: proven for every hand and every world that stands still, on one axis, given true damping, delay, "
-        "lag and count; on n axes the law needs sqrt(n) times the count."
+        "lag and count, to within half a count times the force; on n axes the law needs sqrt(n) times the count."
     )
     output.say(f"Tuned: {', '.join(tuned_laws())}.")
     output.say(

@@ -171,7 +171,7 @@ def _distinct(known: Sequence[Known]) -> tuple[list[int], list[Known]]:
     places: list[int] = []
     distinct: list[Known] = []
     for pair in known:
-        require(pair, tuple, "designed_for", "pairs of Device or DeviceFacts, and Timing")
+        require(pair, (tuple, list), "designed_for", "pairs of Device or DeviceFacts, and Timing")
         device, timing = pair
         facts = device.facts if isinstance(device, Device) else device
         place = found.setdefault((facts, timing), len(found))
