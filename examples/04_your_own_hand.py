@@ -1,4 +1,4 @@
-"""A hand with a recorded path and tremor that lets go; the trace as a table and as files."""
+"""A hand with a recorded path and tremor that lets go; the trace as a table and as files. Needs pandas."""
 
 import numpy as np
 
