@@ -62,12 +62,13 @@ EBAC_EXPORT("reset") void reset() { setup = Setup{}; }
 
 EBAC_EXPORT("set") void set_number(int length, double value) { set(setup, name(length), value); }
 
-/// 0 without the observer, 1 with it, 2 for every law.
+/// 0 without the observer, 1 with it, 2 for every law, 3 with the scale of the force learned.
 EBAC_EXPORT("observe") void observe(int how) {
   setup.observer.reset();
   if (how == 0) return;
   setup.observer = ObserverParams::of(setup.device, setup.timing);
   setup.observer->every_law = how == 2;
+  setup.observer->learn_scale = how == 3;
 }
 
 /// The seed of a scenario, and its jitter as a share of a tick.

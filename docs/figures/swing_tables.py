@@ -1,16 +1,18 @@
-"""Hands that swing slowly on a wall for an hour: the energy that the account does not see."""
+"""Hands that swing slowly on a wall: the energy that the account does not see."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Literal
 
+import numpy as np
 from printed import Printed, Row, table
 
 import ebac
 from ebac._util.plural import plural
 
-#: Length of a run [s], and where the wall is [m].
-HOUR, SURFACE = 3600.0, 0.01
+#: Lengths of runs [s], and where the wall is [m].
+HOUR, FIVE_MINUTES, SURFACE = 3600.0, 300.0, 0.01
 
 
 @dataclass(frozen=True)
@@ -37,8 +39,15 @@ class Swung:
         stiffness, delay = self.wall
         return f"{1e-3 * stiffness:g} kN/m, {plural(delay, 'sample')}"
 
-    def drawn(self, noise: float, scale: float = 1.0) -> float:
-        """Return the most energy that the hand has drawn within the hour [J]."""
+    def drawn(
+        self,
+        noise: float,
+        scale: float = 1.0,
+        *,
+        observer: Literal["learns-scale"] | bool = True,
+        seconds: float = HOUR,
+    ) -> float:
+        """Return the most energy that the hand has drawn within that time [J]."""
         stiffness, delay = self.wall
         pushes = ebac.Sine(
             centre=SURFACE + self.mean / self.stiffness,
@@ -52,7 +61,8 @@ class Swung:
             ),
             environment=ebac.Wall(stiffness=stiffness, position=SURFACE),
             timing=ebac.Timing(delay=delay),
-            seconds=HOUR,
+            seconds=seconds,
+            observer=observer,
         )
         return max(0.0, -float(ebac.simulate(scenario, "ebac").axis("true.energy").min()))
 
@@ -77,18 +87,54 @@ PUSHING = (
 SCALES = (0.99, 0.998, 1.0, 1.002, 1.01)
 
 
+#: Without and with an observer that learns the scale.
+OBSERVERS: tuple[tuple[str, Literal["learns-scale"] | bool], ...] = (
+    ("as calibrated", True),
+    ("learned", "learns-scale"),
+)
+
+
 def scaled(printed: Printed) -> str:
-    """What each hand draws in an hour where the scale of the force is wrong."""
+    """What each hand draws in an hour where the scale of the force is wrong, and random hands in five minutes."""
+    lines = []
+    for one in PUSHING:
+        for name, observer in OBSERVERS:
 
-    def measured() -> list[Row]:
-        return [{f"{scale:g}": one.drawn(0.03, scale) for scale in SCALES} for one in PUSHING]
+            def measured(
+                one: Swung = one, observer: Literal["learns-scale"] | bool = observer
+            ) -> list[Row]:
+                return [{f"{s:g}": one.drawn(0.03, s, observer=observer) for s in SCALES}]
 
-    rows = printed.kept("swung-scaled", measured)
-    lines = [
-        [one.label, *(f"{1e3 * row[f'{scale:g}']:.0f} mJ" for scale in SCALES)]
-        for one, row in zip(PUSHING, rows, strict=True)
-    ]
-    return table(["hand", *(_off(scale) for scale in SCALES)], lines)
+            (row,) = printed.kept(f"swung-{one.mass:g}-{name}", measured)
+            lines.append([one.label, name, *(f"{1e3 * row[f'{s:g}']:.0f} mJ" for s in SCALES)])
+    hands = _random(60)
+    for name, observer in OBSERVERS:
+
+        def worst(observer: Literal["learns-scale"] | bool = observer) -> list[Row]:
+            return [{f"{s:g}": _most(hands, s, observer) for s in SCALES}]
+
+        (row,) = printed.kept(f"swung-random-{name}", worst)
+        label = f"the worst of {len(hands)} random hands, in 5 min"
+        lines.append([label, name, *(f"{1e3 * row[f'{s:g}']:.0f} mJ" for s in SCALES)])
+    return table(["hand", "scale", *(_off(scale) for scale in SCALES)], lines)
+
+
+def _most(hands: list[Swung], scale: float, observer: Literal["learns-scale"] | bool) -> float:
+    return max(h.drawn(0.03, scale, observer=observer, seconds=FIVE_MINUTES) for h in hands)
+
+
+def _random(count: int) -> list[Swung]:
+    """Return hands of 0.05 to 10 kg that swing with up to 14 N at 0.2 to 3 Hz on the wall of 10 kN/m."""
+    rng = np.random.default_rng(1)
+    hands = []
+    for _ in range(count):
+        mass, damping, stiffness, frequency = np.exp(
+            rng.uniform(np.log([0.05, 3, 100, 0.2]), np.log([10, 150, 1000, 3]))
+        )
+        amplitude = rng.uniform(1, 14)
+        mean = amplitude * max(1.0, rng.uniform(0.6, 2))
+        hands.append(Swung(mass, damping, stiffness, mean, amplitude, frequency))
+    return hands
 
 
 def _off(scale: float) -> str:

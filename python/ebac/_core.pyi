@@ -7571,6 +7571,8 @@ class Observer:
         ticks from computing a command to its acting [samples], 0 to 8.
     every_law : bool
         laws that are not made for it meet the world at the estimate too, 0 to 1.
+    learn_scale : bool
+        learn from swings on a world how strong the motor is for the force sensor, to 10 %, 0 to 1.
     """
 
     @staticmethod
@@ -7598,6 +7600,7 @@ class Observer:
         force_age: float = 0.003,
         delay: int = 1,
         every_law: bool = False,
+        learn_scale: bool = False,
     ) -> None: ...
     def __reduce__(self) -> tuple[typing.Any, ...]: ...
     def __repr__(self) -> str: ...
@@ -7653,6 +7656,11 @@ class Observer:
     def friction(self) -> float:
         """
         Coulomb friction of the device, no more than there is [N], 0 to 100
+        """
+    @property
+    def learn_scale(self) -> bool:
+        """
+        learn from swings on a world how strong the motor is for the force sensor, to 10 %, 0 to 1
         """
     @property
     def mass(self) -> float:

@@ -46,6 +46,10 @@ Environment: TypeAlias = Free | Wall | Corner | Disc | _World
 
 #: The observer that every law acts on.
 EVERY_LAW: Final = "every-law"
+LEARNS_SCALE: Final = "learns-scale"
+#: What a name changes of the observer that is designed from device and timing.
+_NAMED_OBSERVERS: Final = {EVERY_LAW: {"every_law": True}, LEARNS_SCALE: {"learn_scale": True}}
+_NAMES: Final = " or ".join(map(repr, _NAMED_OBSERVERS))
 #: What its numbers are.
 _NUMBERS = {"seconds": "a number in s", "jitter": "a number", "seed": "a whole number"}
 _PARTS = ("device", "hand", "environment", "timing", "seconds", "jitter", "seed", "observer")
@@ -96,11 +100,12 @@ class Scenario:
         Largest deviation of a tick from its instant, as a share of the sample time, [0, 0.45].
     seed : int
         Seed of sensor noise, jitter and the place of zero within an encoder count, [0, 2^63).
-    observer : bool, "every-law" or Observer
+    observer : bool, "every-law", "learns-scale" or Observer
         Whether the state of the device is estimated in every tick, from encoder, force sensor and currents: columns
         `est.*`. `ebac` then meets the world where the device will be when the command acts; so does any other law with
-        "every-law". True, the default, and "every-law" design it from device and timing, as `Observer.of`; an
-        `Observer` is used as it is; False runs on the encoder alone, as does a device without a force sensor.
+        "every-law". With "learns-scale" it learns from swings on a world how strong the motor is for the force sensor.
+        True, the default, and the names design it from device and timing, as `Observer.of`; an `Observer` is used as it
+        is; False runs on the encoder alone, as does a device without a force sensor.
 
     Raises
     ------
@@ -117,7 +122,7 @@ class Scenario:
     seconds: float = 6.0
     jitter: float = 0.0
     seed: int = 1
-    observer: Observer | bool | Literal["every-law"] = True
+    observer: Observer | bool | Literal["every-law", "learns-scale"] = True
 
     def __post_init__(self) -> None:
         """Check types and ranges."""
@@ -137,13 +142,13 @@ class Scenario:
             value = getattr(self, name)
             if not isinstance(value, types) or (isinstance(value, bool) and bool not in types):
                 names = _NUMBERS.get(name) or " or ".join(
-                    repr(EVERY_LAW) if t is str else t.__name__.lstrip("_") for t in types
+                    _NAMES if t is str else t.__name__.lstrip("_") for t in types
                 )
                 given = shown(value) if isinstance(value, type) else repr(value)
                 raise TypeError(f"Scenario.{name} = {given}: must be {names}")
-        if isinstance(self.observer, str) and self.observer != EVERY_LAW:
+        if isinstance(self.observer, str) and self.observer not in _NAMED_OBSERVERS:
             raise ValueError(
-                f"Scenario.observer = {self.observer!r}: must be True, False, {EVERY_LAW!r} or an Observer"
+                f"Scenario.observer = {self.observer!r}: must be True, False, {_NAMES}, or an Observer"
             )
         if not isinstance(self.observer, bool) and not self.device.sensor.fitted:
             raise ValueError(
@@ -264,7 +269,8 @@ class Scenario:
         if not self.observer or not self.device.sensor.fitted:
             return None
         designed = Observer.of(self.device, self.timing)
-        return designed.replace(every_law=True) if self.observer == EVERY_LAW else designed
+        changes = _NAMED_OBSERVERS[self.observer] if isinstance(self.observer, str) else {}
+        return designed.replace(**changes)
 
     def setup(self) -> Setup:
         """Return what the C++ simulation takes.

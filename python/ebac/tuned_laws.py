@@ -66,9 +66,10 @@ def on_its_observer(scenario: Scenario, law: AnyLaw) -> Scenario:
             f"{name}: acts on the estimate of the state observer, which is off; turn it on with observer=True, or use "
             f"{instead}"
         )
-    if isinstance(scenario.observer, bool | str):
+    if scenario.observer in (True, "every-law"):
         return scenario.replace(observer="every-law")
-    return scenario.replace(observer=scenario.observer.replace(every_law=True))
+    own = scenario.designed_observer()
+    return scenario.replace(observer=own and own.replace(every_law=True))
 
 
 #: How the names of laws end that were tuned for the observer.

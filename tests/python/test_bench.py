@@ -69,7 +69,9 @@ def test_the_comparison(monkeypatch: pytest.MonkeyPatch) -> None:
     assert errors["ebac"] < 1e-9
 
 
-@pytest.mark.parametrize("option", ["--no-observer", "--observer-every-law", "--seconds=1"])
+@pytest.mark.parametrize(
+    "option", ["--no-observer", "--observer-every-law", "--observer-learns-scale", "--seconds=1"]
+)
 def test_a_comparison_refuses_options_of_a_scenario(option: str) -> None:
     """None is left out in silence, a switch that is off by default neither."""
     refused = CliRunner().invoke(app, ["bench", "--peers", option])

@@ -70,7 +70,9 @@ def test_a_force_loop_is_refused(law: Any, changes: dict[str, float]) -> None:
 
 
 @pytest.mark.parametrize(
-    "observer", ["every-law", ebac.Observer.of(ebac.Device(), ebac.Timing())], ids=["word", "own"]
+    "observer",
+    ["every-law", "learns-scale", ebac.Observer.of(ebac.Device(), ebac.Timing())],
+    ids=["every law", "learns", "own"],
 )
 def test_an_observer_that_is_asked_for_is_refused(observer: Any) -> None:
     with pytest.raises(ValueError, match=r"Scenario\.observer: .* the device has no force sensor"):
@@ -97,6 +99,7 @@ def test_the_option_takes_the_sensor_away() -> None:
         ("--device-noise 0.03", "--device-noise: the device has no force sensor that could have noise"),
         ("--observer", "--observer: the observer needs a force sensor, and the device has none"),
         ("--observer-every-law", "--observer-every-law: the observer needs a force sensor, and the device has none"),
+        ("--observer-learns-scale", "--observer-learns-scale: the observer needs a force sensor, and"),
     ],
 )  # fmt: skip
 def test_an_option_of_the_sensor_is_refused_without_one(words: str, answer: str) -> None:

@@ -24,6 +24,7 @@ struct ObserverParams {
   double force_age = 3e-3;    // s
   int delay = 1;              // samples
   bool every_law = false;
+  bool learn_scale = false;
 
   /// Of a device and the delay of its commands. It counts with 0.8 of the declared friction: with more than there is,
   /// the estimate rests while the device moves, and walls are lost; what is missing it learns as a disturbance. Of a fine
@@ -62,6 +63,9 @@ struct ObserverParams {
           "ticks from computing a command to its acting", 0, kMaxDelay},
         F{"every_law", &ObserverParams::every_law, "1",
           "laws that are not made for it meet the world at the estimate too", 0, 1},
+        F{"learn_scale", &ObserverParams::learn_scale, "1",
+          "learn from swings on a world how strong the motor is for the force sensor, to 10 %", 0,
+          1},
     };
   }
 };

@@ -145,7 +145,9 @@ def described_time(scenario: Scenario) -> str:
     used = scenario.designed_observer()
     observer = ""
     if used is not None:
-        observer = f", state observer for {'every law' if used.every_law else 'laws made for it'}"
+        learns = " that learns the scale" if used.learn_scale else ""
+        laws = "every law" if used.every_law else "laws made for it"
+        observer = f", state observer{learns} for {laws}"
     ticks = f"{_kilo(1 / timing.dt, 'Hz')}, {samples} of delay{jitter}{observer}"
     return f"{ticks}; {scenario.seconds:g} s, seed {scenario.seed}"
 

@@ -44,17 +44,24 @@ def _scenario(given: dict[str, Any], seconds: float | None) -> Scenario:
 
 
 def _observer(given: dict[str, Any], device: Device) -> Any:
-    from ebac.scenario import EVERY_LAW
+    from ebac.scenario import EVERY_LAW, LEARNS_SCALE
 
-    every, observer = given.get("observer_every_law"), given.get("observer")
-    if every and observer is False:
-        raise ValueError("--observer-every-law: needs the observer that --no-observer turns off")
-    if (every or observer) and not device.sensor.fitted:
-        option = "--observer-every-law" if every else "--observer"
+    observer = given.get("observer")
+    names = {EVERY_LAW: "--observer-every-law", LEARNS_SCALE: "--observer-learns-scale"}
+    named = [name for name, option in names.items() if given.get(option[2:].replace("-", "_"))]
+    if len(named) > 1:
+        raise ValueError(
+            f"{' and '.join(names.values())}: the command has no observer for both; "
+            "Scenario.observer = Observer.of(device, timing).replace(every_law=True, learn_scale=True) is one"
+        )
+    if named and observer is False:
+        raise ValueError(f"{names[named[0]]}: needs the observer that --no-observer turns off")
+    if (named or observer) and not device.sensor.fitted:
+        option = names[named[0]] if named else "--observer"
         raise ValueError(
             f"{option}: the observer needs a force sensor, and the device has none; leave it out"
         )
-    return EVERY_LAW if every else observer
+    return named[0] if named else observer
 
 
 def wall(usual: Environment, group: Any) -> Environment:

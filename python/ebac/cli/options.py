@@ -260,6 +260,14 @@ class RunOptions:
             rich_help_panel=RUN,
         ),
     ] = None
+    observer_learns_scale: Annotated[
+        bool | None,
+        typer.Option(
+            "--observer-learns-scale",
+            help="Let the observer learn, from swings on the wall, how strong the motor is for the force sensor.",
+            rich_help_panel=RUN,
+        ),
+    ] = None
     seconds: Annotated[
         float | None, option(text="Length of the run [s]", default="6", panel=RUN)
     ] = None

@@ -7,7 +7,7 @@ from typing import Any
 
 from ebac._core import BackwardDifference, Linear, Observer, Step, Wall
 from ebac._util import serialisation
-from ebac.scenario import EVERY_LAW, Scenario
+from ebac.scenario import EVERY_LAW, LEARNS_SCALE, Scenario
 
 #: Parts whose numbers are settings, by the names of a scenario's TOML file.
 _PARTS = ("device", "hand", "environment", "timing")
@@ -39,13 +39,13 @@ def settings(scenario: Scenario) -> dict[str, float]:
     if device.axes != 1:
         raise TypeError(f"ebac.live: the device has {device.axes} axes: must have 1")
     if isinstance(scenario.observer, Observer):
-        raise TypeError("ebac.live: observer is an Observer: must be True, False or 'every-law'")
+        raise TypeError("ebac.live: observer is an Observer: must be True, False or a name")
     usual = dict(_numbers(Scenario()))
     return {name: value for name, value in _numbers(scenario) if value != usual[name]}
 
 
 def options(scenario: Scenario) -> dict[str, float]:
-    """Return observer (0 off, 1 on, 2 for every law), seed and jitter.
+    """Return observer (0 off, 1 on, 2 for every law, 3 with the scale learned), seed and jitter.
 
     Raises
     ------
@@ -54,7 +54,9 @@ def options(scenario: Scenario) -> dict[str, float]:
     """
     if scenario.seed > 2**53:
         raise ValueError(f"Scenario.seed = {scenario.seed}: must lie in [0, 2^53] for a browser")
-    observer = 2 if scenario.observer == EVERY_LAW else int(bool(scenario.observer))
+    named = {EVERY_LAW: 2, LEARNS_SCALE: 3}
+    chosen = scenario.observer
+    observer = named[chosen] if isinstance(chosen, str) else int(bool(chosen))
     return {"observer": observer, "seed": scenario.seed, "jitter": scenario.jitter}
 
 

@@ -48,7 +48,7 @@ export class Core {
     return bytes.length;
   }
 
-  /** Begin a run from rest. `settings` by name in SI units, others have their default; `observer` 0 off, 1 on, 2 for every law. */
+  /** Begin a run from rest. `settings` by name in SI units, others have their default; `observer` 0 off, 1 on, 2 for every law, 3 with the scale learned. */
   start(law, settings = {}, { observer = 1, seed = 1, jitter = 0 } = {}) {
     this.guarded(() => {
       this.wasm.reset();
