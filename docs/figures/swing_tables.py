@@ -1,4 +1,4 @@
-"""Hands that swing slowly on a wall: the energy that the account does not see."""
+"""Hands that swing slowly on a wall for an hour: the energy that the account does not see."""
 
 from __future__ import annotations
 
@@ -11,8 +11,8 @@ from printed import Printed, Row, table
 import ebac
 from ebac._util.plural import plural
 
-#: Lengths of runs [s], and where the wall is [m].
-HOUR, FIVE_MINUTES, SURFACE = 3600.0, 300.0, 0.01
+#: Length of a run [s], and where the wall is [m].
+HOUR, SURFACE = 3600.0, 0.01
 
 
 @dataclass(frozen=True)
@@ -45,9 +45,8 @@ class Swung:
         scale: float = 1.0,
         *,
         observer: Literal["learns-scale"] | bool = True,
-        seconds: float = HOUR,
     ) -> float:
-        """Return the most energy that the hand has drawn within that time [J]."""
+        """Return the most energy that the hand has drawn within the hour [J]."""
         stiffness, delay = self.wall
         pushes = ebac.Sine(
             centre=SURFACE + self.mean / self.stiffness,
@@ -61,7 +60,7 @@ class Swung:
             ),
             environment=ebac.Wall(stiffness=stiffness, position=SURFACE),
             timing=ebac.Timing(delay=delay),
-            seconds=seconds,
+            seconds=HOUR,
             observer=observer,
         )
         return max(0.0, -float(ebac.simulate(scenario, "ebac").axis("true.energy").min()))
@@ -95,7 +94,7 @@ OBSERVERS: tuple[tuple[str, Literal["learns-scale"] | bool], ...] = (
 
 
 def scaled(printed: Printed) -> str:
-    """What each hand draws in an hour where the scale of the force is wrong, and random hands in five minutes."""
+    """What each hand draws in an hour where the scale of the force is wrong, and the worst of random hands."""
     lines = []
     for one in PUSHING:
         for name, observer in OBSERVERS:
@@ -114,13 +113,13 @@ def scaled(printed: Printed) -> str:
             return [{f"{s:g}": _most(hands, s, observer) for s in SCALES}]
 
         (row,) = printed.kept(f"swung-random-{name}", worst)
-        label = f"the worst of {len(hands)} random hands, in 5 min"
+        label = f"the worst of {len(hands)} random hands"
         lines.append([label, name, *(f"{1e3 * row[f'{s:g}']:.0f} mJ" for s in SCALES)])
     return table(["hand", "scale", *(_off(scale) for scale in SCALES)], lines)
 
 
 def _most(hands: list[Swung], scale: float, observer: Literal["learns-scale"] | bool) -> float:
-    return max(h.drawn(0.03, scale, observer=observer, seconds=FIVE_MINUTES) for h in hands)
+    return max(h.drawn(0.03, scale, observer=observer) for h in hands)
 
 
 def _random(count: int) -> list[Swung]:

@@ -146,6 +146,26 @@ def test_no_scale_is_learned_in_free_motion() -> None:
     assert np.array_equal(runs[0]["est.x_act"], runs[1]["est.x_act"])
 
 
+def test_no_scale_is_learned_from_a_world_that_moves() -> None:
+    """What would be learned has the wrong sign: the estimate was off by a count, and this hand fell back."""
+    swings = ebac.worlds.Swing(amplitude_x=5e-3, frequency=1.0)
+    plane = ebac.worlds.Placed(ebac.worlds.Plane(), (0.01, 0.0, 0.0))
+    body = ebac.worlds.Body(
+        solid=plane, material=ebac.worlds.Elastic(stiffness=10e3), motion=swings
+    )
+    scenario = ebac.Scenario(
+        device=NOISY,
+        hand=ebac.Hand(mass=0.05, damping=20, stiffness=1000, target=0.03),
+        environment=ebac.worlds.World(body),
+        observer="learns-scale",
+        seconds=120.0,
+    )
+    trace = ebac.simulate(scenario, "ebac")
+    assert not trace.axis("est.fallback").any()
+    late = trace.axis("est.x")[60_000:] - trace.axis("true.x")[60_000:]
+    assert late.std() < 0.5 * NOISY.count
+
+
 def test_the_observer_that_learns_the_scale_has_a_name_a_field_and_an_option() -> None:
     scenario = OBSERVED.replace(observer="learns-scale")
     own = ebac.Observer.of(NOISY, OBSERVED.timing).replace(learn_scale=True)

@@ -50,7 +50,8 @@ namespace ebac {
 ///
 ///   s' = -rate (off + lead) v
 ///
-/// so that the estimate leads by up to half a count in the mean. In free motion, without a force, nothing is learned.
+/// so that the estimate leads by up to half a count in the mean. Without a force and while the world
+/// moves, nothing is learned.
 class AxisObserver {
  public:
   struct Motion {
@@ -90,6 +91,9 @@ class AxisObserver {
     mass_ = params_.mass * share;
     per_mass_ = 1 / mass_;
   }
+
+  /// Whether the scale is learned.
+  void set_learns(bool learns) EBAC_RT { learns_ = learns; }
 
   /// The part of D that is known: the weight of the device along this axis [N].
   void set_weight(double weight) EBAC_RT {
@@ -244,7 +248,7 @@ class AxisObserver {
     const double count = params_.count;
     const double off = reading - x_;
     const double within = std::clamp(off, -count, count);
-    if (params_.learn_scale) learn_scale(within);
+    if (learns_) learn_scale(within);
     const double noisy = std::clamp(2.5 * rough_ - 0.5, 0.0, 1.0);
     contradicted_ += ((std::abs(off) > 1.5 * count ? 1.0 : 0.0) - contradicted_) * forget_;
     moving_ = std::max(std::min(1.0, std::abs(u_) * (1 / kMoving)), moving_ * resting_);
@@ -297,6 +301,7 @@ class AxisObserver {
   double disturbance_ = 0;  // N
   double weight_ = 0;       // N, of the device, in it
   double strength_ = 1;     // of the motor, over what the sensor shows
+  bool learns_ = false;
   double measured_ = 0;     // N
   double before_last_ = 0;  // N, the reading before
   double contradicted_ = 0;

@@ -23,6 +23,14 @@ StateObserver::StateObserver(const DeviceModel& device, const Observing& observi
   for (AxisObserver& observer : observer_) observer.set_weight(handle_weight_);
 }
 
+/// Only a world that stands still says what is learned of the scale: of one that moves, the force does not change with
+/// the way of the device.
+void StateObserver::teach(std::span<const Axis> axes) EBAC_RT {
+  bool stands = true;
+  for (const Axis& axis : axes) stands = stands && axis.port.world_v == 0;
+  for (AxisObserver& observer : observer_) observer.set_learns(stands);
+}
+
 /// The mass of an axis over that of the first in the middle. The pose changes the handle's part of it.
 double StateObserver::mass_share(const Pose& at, Eigen::Index axis) const EBAC_RT {
   const double share = at.inertia[axis] / (travel_[axis] * travel_[axis]);

@@ -55,6 +55,7 @@ class StateObserver {
 
   Fallback failure(const Reading& reading, std::size_t axes) const EBAC_RT;
   void trust(const Reading& reading, double dt, std::size_t axes) EBAC_RT;
+  void teach(std::span<const Axis> axes) EBAC_RT;
   double mass_share(const Pose& at, Eigen::Index axis) const EBAC_RT;
   void step_general(const Reading& reading, const std::array<bool, kMaxAxes>& counted, double dt,
                     std::span<Axis> axes) EBAC_RT;
@@ -154,6 +155,7 @@ inline void StateObserver::heed(bool drained, double dt, std::span<const Axis> a
 inline void StateObserver::step(const Reading& reading, const std::array<bool, kMaxAxes>& counted,
                                 double dt, std::span<Axis> axes) EBAC_RT {
   trust(reading, dt, axes.size());
+  if (observing_.params.learn_scale) teach(axes);
   if (forgot_) dt = 0;
   forgot_ = false;
   if (linear_) {  // the general case below, with J = R
