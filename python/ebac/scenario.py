@@ -269,8 +269,9 @@ class Scenario:
         if not self.observer or not self.device.sensor.fitted:
             return None
         designed = Observer.of(self.device, self.timing)
-        changes = _NAMED_OBSERVERS[self.observer] if isinstance(self.observer, str) else {}
-        return designed.replace(**changes)
+        if isinstance(self.observer, str):
+            return designed.replace(**_NAMED_OBSERVERS[self.observer])
+        return designed
 
     def setup(self) -> Setup:
         """Return what the C++ simulation takes.

@@ -70,7 +70,7 @@ def test_the_comparison(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 @pytest.mark.parametrize(
-    "option", ["--no-observer", "--observer-every-law", "--observer-learns-scale", "--seconds=1"]
+    "option", ["--no-observer", "--observer-every-law", "--observer-learns", "--seconds=1"]
 )
 def test_a_comparison_refuses_options_of_a_scenario(option: str) -> None:
     """None is left out in silence, a switch that is off by default neither."""

@@ -173,11 +173,11 @@ def test_the_observer_that_learns_the_scale_has_a_name_a_field_and_an_option() -
     assert "observer that learns the scale" in describe(scenario)
     assert ebac.Scenario.from_toml(scenario.to_toml()) == scenario
     words = ["wall", "--law", "ebac", "--device-noise", "0.03", "--seconds", "2", "--json"]
-    answer = CliRunner().invoke(app, [*words, "--observer-learns-scale"])
+    answer = CliRunner().invoke(app, [*words, "--observer-learns"])
     assert json.loads(answer.stdout)["scenario"]["observer"] == "learns-scale"
-    both = CliRunner().invoke(app, [*words, "--observer-learns-scale", "--observer-every-law"])
+    both = CliRunner().invoke(app, [*words, "--observer-learns", "--observer-every-law"])
     assert both.exit_code == 2
-    assert "--observer-every-law and --observer-learns-scale" in both.output
+    assert "--observer-every-law and --observer-learns" in both.output
 
 
 def test_a_tuned_law_on_the_observer_keeps_that_it_learns() -> None:

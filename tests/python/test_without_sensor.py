@@ -99,7 +99,7 @@ def test_the_option_takes_the_sensor_away() -> None:
         ("--device-noise 0.03", "--device-noise: the device has no force sensor that could have noise"),
         ("--observer", "--observer: the observer needs a force sensor, and the device has none"),
         ("--observer-every-law", "--observer-every-law: the observer needs a force sensor, and the device has none"),
-        ("--observer-learns-scale", "--observer-learns-scale: the observer needs a force sensor, and"),
+        ("--observer-learns", "--observer-learns: the observer needs a force sensor, and"),
     ],
 )  # fmt: skip
 def test_an_option_of_the_sensor_is_refused_without_one(words: str, answer: str) -> None:

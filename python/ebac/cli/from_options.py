@@ -47,7 +47,7 @@ def _observer(given: dict[str, Any], device: Device) -> Any:
     from ebac.scenario import EVERY_LAW, LEARNS_SCALE
 
     observer = given.get("observer")
-    names = {EVERY_LAW: "--observer-every-law", LEARNS_SCALE: "--observer-learns-scale"}
+    names = {EVERY_LAW: "--observer-every-law", LEARNS_SCALE: "--observer-learns"}
     named = [name for name, option in names.items() if given.get(option[2:].replace("-", "_"))]
     if len(named) > 1:
         raise ValueError(

@@ -260,10 +260,10 @@ class RunOptions:
             rich_help_panel=RUN,
         ),
     ] = None
-    observer_learns_scale: Annotated[
+    observer_learns: Annotated[
         bool | None,
         typer.Option(
-            "--observer-learns-scale",
+            "--observer-learns",
             help="Let the observer learn, from swings on the wall, how strong the motor is for the force sensor.",
             rich_help_panel=RUN,
         ),
