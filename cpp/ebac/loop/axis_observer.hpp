@@ -8,6 +8,7 @@
 #include "ebac/core/realtime.hpp"
 #include "ebac/loop/force_history.hpp"
 #include "ebac/loop/motor_force.hpp"
+#include "ebac/loop/motor_strength.hpp"
 #include "ebac/loop/observer_gains.hpp"
 #include "ebac/loop/observer_params.hpp"
 
@@ -44,14 +45,7 @@ namespace ebac {
 /// takes the force of the hand to change as it did in the last 12 ms, and at rest without the noise it
 /// shows: a lag in that force of 1 N would be 4 m/s^2. v is kept within what two readings prove of it.
 ///
-/// With `learn_scale`, f counts as `strength` times the command. Where the sensor shows less than the motor gives, the
-/// estimate of a device that swings on a world lags behind the readings by `off`, and the swing draws off v of energy.
-/// Strength follows
-///
-///   s' = -rate (off + lead) v
-///
-/// so that the estimate leads by up to half a count in the mean. Without a force and while the world
-/// moves, nothing is learned.
+/// With `learn_scale`, f counts as its learned `MotorStrength` times the command.
 class AxisObserver {
  public:
   struct Motion {
@@ -64,6 +58,7 @@ class AxisObserver {
         mass_(params.mass* mass_share),
         per_mass_(1 / mass_),
         motor_(params.current_lag),
+        strength_(params.count),
         in_flight_(params.delay) {}
 
   /// At rest at `x` [m], with the hand's `force` [N] if it is more than noise. What else has held the device lets go
@@ -92,7 +87,7 @@ class AxisObserver {
     per_mass_ = 1 / mass_;
   }
 
-  /// Whether the scale is learned.
+  /// Whether the strength of the motor is learned: not while the world moves.
   void set_learns(bool learns) EBAC_RT { learns_ = learns; }
 
   /// The part of D that is known: the weight of the device along this axis [N].
@@ -109,7 +104,7 @@ class AxisObserver {
     const double measured = records_.at_mean_age(seen, dt, params_.force_age);
     if (dt != dt_ || records_.started()) set_tick(dt);
     doubt(seen.age > params_.force_age, measured);
-    const double motor = motor_.hold(strength_ * applied);  // G f
+    const double motor = motor_.hold(strength_.of(applied));  // G f
     // The mean over the interval, of the parabola through the last three readings.
     const double force = (5 * measured + 8 * measured_ - before_last_) * (1.0 / 12) + disturbance_;
     const double bend = measured - 2 * measured_ + before_last_;
@@ -130,7 +125,7 @@ class AxisObserver {
   }
 
   /// The command of the last tick, as force at the handle, joins those in flight.
-  void give(double force) EBAC_RT { in_flight_.push(strength_ * force); }
+  void give(double force) EBAC_RT { in_flight_.push(strength_.of(force)); }
 
   /// Where the device is when a command given now acts, in the middle of its interval: over every
   /// command in flight, half a tick and the current lag, the hand's force changing as it does.
@@ -185,21 +180,7 @@ class AxisObserver {
   static constexpr double kMemory = 0.05;   // s, of the contradictions
   static constexpr double kBears = 0.15;    // share of ticks that may contradict
   static constexpr double kLearn = 2;       // from here to 1/2 more, all gains rise to those of w
-  static constexpr double kTouch = 0.5;  // N, of the motor, from here on the device touches a world
-  static constexpr double kSwing = 3e-3;  // m/s, faster counts as this
-  static constexpr double kLead = 0.5;    // counts that the estimate shall lead by at that velocity
-  static constexpr double kRate = 1e4;    // 1/m^2, slow enough to change little within a swing
-  static constexpr double kStrength = 0.1;     // of the strength, learned at most
   static constexpr double kPatience = 3.5e-3;  // s, half a period of a cable's resonance of 140 Hz
-
-  /// How strong the motor is for the sensor, from how far a reading is `off` the estimate, a count at most.
-  void learn_scale(double off) EBAC_RT {
-    if (old_ || std::abs(motor_.shown()) < kTouch) return;
-    const double v = std::clamp(v_, -kSwing, kSwing);
-    const double lead = kLead / kSwing * params_.count * v;
-    strength_ -= kRate * (off + lead) * v * dt_;
-    strength_ = std::clamp(strength_, 1 - kStrength, 1 + kStrength);
-  }
 
   double acceleration() const EBAC_RT {
     const double pull = measured_ + disturbance_ - params_.damping * u_ - motor_.shown();
@@ -248,7 +229,7 @@ class AxisObserver {
     const double count = params_.count;
     const double off = reading - x_;
     const double within = std::clamp(off, -count, count);
-    if (learns_) learn_scale(within);
+    if (learns_ && !old_) strength_.learn(within, v_, motor_.shown(), dt_);
     const double noisy = std::clamp(2.5 * rough_ - 0.5, 0.0, 1.0);
     contradicted_ += ((std::abs(off) > 1.5 * count ? 1.0 : 0.0) - contradicted_) * forget_;
     moving_ = std::max(std::min(1.0, std::abs(u_) * (1 / kMoving)), moving_ * resting_);
@@ -293,6 +274,7 @@ class AxisObserver {
   double mass_;      // kg
   double per_mass_;  // 1/kg
   MotorForce motor_;
+  MotorStrength strength_;
   CommandsInFlight in_flight_;
   double x_ = 0;            // m
   double moved_ = 0;        // m
@@ -300,7 +282,6 @@ class AxisObserver {
   double v_ = 0;            // m/s
   double disturbance_ = 0;  // N
   double weight_ = 0;       // N, of the device, in it
-  double strength_ = 1;     // of the motor, over what the sensor shows
   bool learns_ = false;
   double measured_ = 0;     // N
   double before_last_ = 0;  // N, the reading before
