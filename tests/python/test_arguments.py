@@ -16,7 +16,7 @@ import ebac
 from ebac import _core
 from ebac._util.arguments import LISTED_BY, near, unknown
 from ebac.cli import app
-from ebac.tuned_laws import tuned_laws
+from ebac.laws.tuned_laws import tuned_laws
 
 S: Any = ebac.Scenario
 has = "; it has: device, hand, environment, timing, seconds, jitter, seed, observer"

@@ -14,8 +14,8 @@ from typer.testing import CliRunner
 import ebac
 from ebac.cli import app
 from ebac.laws import design
+from ebac.laws.tuned_laws import tuned, tuned_laws
 from ebac.studies import TuningInterrupted, tune, tuning
-from ebac.tuned_laws import tuned, tuned_laws
 
 FEW = ebac.Operators.sample(3, 5)
 #: What the package has, by the ending of the laws' names.

@@ -25,7 +25,7 @@ def one_law(name: str, option: str = "--law") -> str:
 
 def designed_law(name: str, where: str) -> str:
     """Return a law by its name, `where` none has tuned parameters; each is designed for wall and device there."""
-    from ebac.tuned_laws import tuned_laws
+    from ebac.laws.tuned_laws import tuned_laws
 
     law, tuned, _ = name.lower().replace("_", "-").partition("-tuned")
     if tuned and any(one.startswith(f"{law}-tuned") for one in tuned_laws()):
@@ -36,7 +36,7 @@ def designed_law(name: str, where: str) -> str:
 def law_names(given: Sequence[str], option: str = "--law") -> list[str]:
     """Return the laws of names in any case, separated by commas, each once, in the order given; `all` is every law."""
     from ebac.laws import LAWS
-    from ebac.tuned_laws import tuned_laws
+    from ebac.laws.tuned_laws import tuned_laws
 
     known = (*LAWS, *tuned_laws())
     names: list[str] = []
@@ -54,7 +54,7 @@ def law_names(given: Sequence[str], option: str = "--law") -> list[str]:
 def _tell_tuned(names: Sequence[str]) -> None:
     """Say on stderr what a law with tuned parameters is."""
     from ebac.cli import output
-    from ebac.tuned_laws import tuned_text
+    from ebac.laws.tuned_laws import tuned_text
 
     for name in names:
         output.note(tuned_text(name))

@@ -25,7 +25,7 @@ def several(complete: Callable[[str], list[str]]) -> Callable[[str], list[str]]:
 def laws(incomplete: str) -> list[str]:
     """Return the laws that begin so."""
     from ebac.laws import LAWS
-    from ebac.tuned_laws import tuned_laws
+    from ebac.laws.tuned_laws import tuned_laws
 
     return _begun(incomplete.lower(), (*LAWS, *tuned_laws(), "all"))
 

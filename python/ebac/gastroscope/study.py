@@ -17,7 +17,7 @@ from ebac._util.background import Background
 from ebac._util.cores import thread_count
 from ebac.gastroscope.procedure import Procedure, core_law
 from ebac.laws import AnyLaw, law_name
-from ebac.tuned_laws import on_its_observer
+from ebac.laws.tuned_laws import on_its_observer
 
 #: Difference of forces for which the power is stated [N].
 MATTERS = 1.0

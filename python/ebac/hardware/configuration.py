@@ -23,9 +23,9 @@ from ebac.hardware.signs import Signs
 from ebac.hardware.tables import ConfigurationError
 from ebac.hardware.zero import Zero
 from ebac.laws import CoreLaw
+from ebac.laws.tuned_laws import on_its_observer
 from ebac.realtime.mode import Mode
 from ebac.scenario import Environment, Scenario
-from ebac.tuned_laws import on_its_observer
 
 if TYPE_CHECKING:
     from ebac._core import TimedBus

@@ -15,6 +15,7 @@ from ebac._util.arguments import named, require, several, whole
 from ebac._util.cores import thread_count
 from ebac._util.progress import Progress
 from ebac.laws import AnyLaw, CoreLaw, PythonLaw, design, is_core_law, reserve_of
+from ebac.laws.tuned_laws import on_its_observer
 from ebac.metrics.energy_drawn import drawn
 from ebac.scenario import Scenario
 from ebac.studies.hand_search import every_row
@@ -22,7 +23,6 @@ from ebac.studies.random_scenario import DEVICES, random_scenario
 from ebac.studies.random_worlds_result import HELD_BACK, HandRun, RandomWorldRow, RandomWorlds
 from ebac.studies.sweeps.run import Laws, name_laws
 from ebac.studies.world_kinds import KINDS
-from ebac.tuned_laws import on_its_observer
 
 #: Stiffnesses of the surfaces [N/m] and delays [samples] unless others are given.
 STIFFNESSES, DELAYS = (10e3,), (1,)

@@ -9,11 +9,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ebac.laws import AnyLaw, design
+from ebac.laws.tuned_laws import on_its_observer
 from ebac.scenario import Scenario
 from ebac.studies.hand_search import every_row
 from ebac.studies.random_scenario import random_scenario
 from ebac.trace import Trace
-from ebac.tuned_laws import on_its_observer
 
 #: A hand that the guard holds back for longer than this is counted [s].
 HELD_BACK = 0.1

@@ -15,6 +15,7 @@ from ebac import _core
 from ebac._util import row_files, verdicts
 from ebac._util.arguments import require_path
 from ebac.laws import design
+from ebac.laws.tuned_laws import on_its_observer
 from ebac.operators import Operators
 from ebac.scenario import Scenario
 from ebac.simulation import LoopFault, simulate
@@ -22,7 +23,6 @@ from ebac.studies.conditions import Condition
 from ebac.studies.sweeps.measure import Columns
 from ebac.studies.sweeps.result import SweepResult
 from ebac.trace import Trace
-from ebac.tuned_laws import on_its_observer
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

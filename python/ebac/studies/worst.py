@@ -12,6 +12,7 @@ from ebac._util.arguments import require
 from ebac._util.cores import thread_count
 from ebac._util.progress import Progress
 from ebac.laws import AnyLaw, design, law_name, reserve_of
+from ebac.laws.tuned_laws import on_its_observer
 from ebac.scenario import Scenario
 from ebac.studies.conditions import Condition, conditions
 from ebac.studies.families import PULL, families, find_family
@@ -19,7 +20,6 @@ from ebac.studies.hand_search import HandSearch, WorstHand, every_row
 from ebac.studies.scenario_changes import truth
 from ebac.studies.slower_hands import no_quicker
 from ebac.trace import Trace
-from ebac.tuned_laws import on_its_observer
 
 #: Runs per family, unless others are asked for; fewer find less.
 EVALUATIONS = 2000

@@ -13,10 +13,10 @@ from ebac import _core
 from ebac._core import STILL_SWING, TAIL_SHARE, Free, Hand, Link, MinimumJerk, SlaveModel
 from ebac._util.arguments import number, require, shown, unknown_name, whole
 from ebac.laws import AnyLaw, design, is_core_law, law_name
+from ebac.laws.tuned_laws import on_its_observer
 from ebac.scenario import Scenario
 from ebac.teleop import run_text
 from ebac.teleop.schemes import Scheme, chosen_scheme
-from ebac.tuned_laws import on_its_observer
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

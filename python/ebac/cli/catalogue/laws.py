@@ -77,7 +77,7 @@ def _row(law: Any) -> dict[str, Any]:
 
 
 def _show_all(rows: list[dict[str, Any]]) -> None:
-    from ebac.tuned_laws import tuned_laws
+    from ebac.laws.tuned_laws import tuned_laws
 
     grid = output.table(["law", "what", "passive", "parameters"])
     for row in rows:

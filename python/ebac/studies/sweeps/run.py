@@ -14,13 +14,13 @@ from ebac._core import Device, DeviceFacts, RunLimits, Timing
 from ebac._util.arguments import require, whole
 from ebac._util.progress import Progress
 from ebac.laws import AnyLaw, design, law_name
+from ebac.laws.tuned_laws import on_its_observer
 from ebac.scenario import Scenario
 from ebac.studies.sweeps.job import Job
 from ebac.studies.sweeps.measure import Columns, Run
 from ebac.studies.sweeps.parameters import swept
 from ebac.studies.sweeps.result import SweepResult
 from ebac.studies.sweeps.store import Store, fingerprint
-from ebac.tuned_laws import on_its_observer
 
 Laws: TypeAlias = AnyLaw | Sequence[AnyLaw] | Mapping[str, AnyLaw]
 Known: TypeAlias = tuple[Device | DeviceFacts, Timing]

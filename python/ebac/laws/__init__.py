@@ -38,7 +38,7 @@ from ebac._util.arguments import refuse_unknown, require, shown, unknown_name
 from ebac._util.copying import refuse_uncopyable
 from ebac._util.design_errors import by_cause
 from ebac._util.wrong_calls import plain_constructor
-from ebac.tuned_laws import tuned, tuned_laws
+from ebac.laws.tuned_laws import tuned, tuned_laws
 
 if TYPE_CHECKING:
     from ebac.scenario import Scenario
