@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from printed import NOISE, Printed, Row, code, fixed, millijoules, of_two, table
 
 import ebac
-from ebac.laws import shown_value
+from ebac.laws.variant import shown_value
 from ebac.studies.tuning import RANGES, TUNING_CONDITIONS
 from ebac.studies.tuning.result import rows_of
 from ebac.studies.zwidth.result import CRITERIA

@@ -13,7 +13,8 @@ from ebac._util.arguments import require
 from ebac._util.fault_remedies import REMEDIES
 from ebac._util.foreign_worlds import foreign
 from ebac._util.kept_law import KeptLaw, law_error
-from ebac.laws import AnyLaw, CoreLaw, PythonLaw, design, is_core_law, law_name
+from ebac.laws import AnyLaw, CoreLaw, PythonLaw, design, law_name
+from ebac.laws.protocols import is_core_law
 from ebac.laws.tuned_laws import on_its_observer
 from ebac.scenario import Scenario
 from ebac.trace import Trace

@@ -12,7 +12,8 @@ import ebac
 from ebac.cli import app
 from ebac.datasets import joystick_text
 from ebac.hardware import Configuration
-from ebac.laws import FORCE_GAINS, LAWS, design
+from ebac.laws import LAWS, design
+from ebac.laws.making import FORCE_GAINS
 from ebac.live import Session
 
 BARE = ebac.Device(sensor=None)

@@ -13,7 +13,8 @@ from numpy.typing import NDArray
 from ebac import _core
 from ebac._core import Device, Free, Hand, Master, Patient, Physician, Polyp, Scope, Step
 from ebac.gastroscope.lumen import Lumen
-from ebac.laws import AnyLaw, CoreLaw, design, is_core_law, law_name
+from ebac.laws import AnyLaw, CoreLaw, design, law_name
+from ebac.laws.protocols import is_core_law
 from ebac.laws.tuned_laws import on_its_observer
 from ebac.presets import DEVICES
 from ebac.scenario import Scenario

@@ -6,7 +6,8 @@ from collections.abc import Mapping
 from typing import Any
 
 from ebac._core import Device, Timing
-from ebac.laws import LAWS, AnyLaw, CoreLaw, design, is_core_law
+from ebac.laws import LAWS, AnyLaw, CoreLaw, design
+from ebac.laws.protocols import is_core_law
 
 
 def designed(

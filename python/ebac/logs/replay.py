@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 from ebac import _core
 from ebac._util.arguments import require
 from ebac._util.kept_law import KeptLaw, law_error
-from ebac.laws import AnyLaw, design, is_core_law, law_name
+from ebac.laws import AnyLaw, design, law_name
+from ebac.laws.protocols import is_core_law
 from ebac.laws.tuned_laws import on_its_observer
 from ebac.logs.log import Log
 from ebac.logs.sensor_rows import force_age, force_status

@@ -50,7 +50,8 @@ def eq2() -> Finding:
 
 def eq3() -> Finding:
     """Check the passivity condition over 60 hands, for each law."""
-    from ebac.laws import design, reserve_of
+    from ebac.laws import design
+    from ebac.laws.making import reserve_of
     from ebac.operators import Operators
     from ebac.studies import study
 

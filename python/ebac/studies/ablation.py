@@ -10,7 +10,9 @@ from textwrap import shorten
 from typing import Any
 
 from ebac._core import Device, Timing
-from ebac.laws import AnyLaw, changed, design, is_core_law, law_name, shown_value
+from ebac.laws import AnyLaw, changed, design, law_name
+from ebac.laws.protocols import is_core_law
+from ebac.laws.variant import shown_value
 from ebac.operators import Operators
 from ebac.studies.measures import MEASURES, Measure, conditions_of
 from ebac.studies.result import Study

@@ -14,7 +14,9 @@ import numpy as np
 from ebac._util.arguments import named, require, several, whole
 from ebac._util.cores import thread_count
 from ebac._util.progress import Progress
-from ebac.laws import AnyLaw, CoreLaw, PythonLaw, design, is_core_law, reserve_of
+from ebac.laws import AnyLaw, CoreLaw, PythonLaw, design
+from ebac.laws.making import reserve_of
+from ebac.laws.protocols import is_core_law
 from ebac.laws.tuned_laws import on_its_observer
 from ebac.metrics.energy_drawn import drawn
 from ebac.scenario import Scenario

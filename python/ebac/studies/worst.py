@@ -11,7 +11,8 @@ from ebac._util import formatting
 from ebac._util.arguments import require
 from ebac._util.cores import thread_count
 from ebac._util.progress import Progress
-from ebac.laws import AnyLaw, design, law_name, reserve_of
+from ebac.laws import AnyLaw, design, law_name
+from ebac.laws.making import reserve_of
 from ebac.laws.tuned_laws import on_its_observer
 from ebac.scenario import Scenario
 from ebac.studies.conditions import Condition, conditions

@@ -8,7 +8,8 @@ from typing import Any
 from ebac import _core
 from ebac._core import Link, SlaveModel
 from ebac._util.reach import check_reach
-from ebac.laws import CoreLaw, PythonLaw, is_core_law
+from ebac.laws import CoreLaw, PythonLaw
+from ebac.laws.protocols import is_core_law
 from ebac.scenario import Scenario
 from ebac.teleop.schemes import Scheme
 

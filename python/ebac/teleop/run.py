@@ -12,7 +12,8 @@ import numpy.typing as npt
 from ebac import _core
 from ebac._core import STILL_SWING, TAIL_SHARE, Free, Hand, Link, MinimumJerk, SlaveModel
 from ebac._util.arguments import number, require, shown, unknown_name, whole
-from ebac.laws import AnyLaw, design, is_core_law, law_name
+from ebac.laws import AnyLaw, design, law_name
+from ebac.laws.protocols import is_core_law
 from ebac.laws.tuned_laws import on_its_observer
 from ebac.scenario import Scenario
 from ebac.teleop import run_text

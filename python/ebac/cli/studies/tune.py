@@ -141,7 +141,7 @@ def _write(draft: Path | None, text: str, found: list[Tuned]) -> None:
 
 def _show(found: list[Tuned]) -> None:
     from ebac._util import formatting
-    from ebac.laws import shown_value
+    from ebac.laws.variant import shown_value
 
     def seconds(value: float | None) -> str:
         return "never" if value is None else f"{value:.3f} s"

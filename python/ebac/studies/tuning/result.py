@@ -8,7 +8,8 @@ from typing import Any
 import numpy as np
 
 from ebac._util.formatting import quantity
-from ebac.laws import Variant, shown_value
+from ebac.laws import Variant
+from ebac.laws.variant import shown_value
 from ebac.studies.result import Study
 
 #: What is much more energy drawn than by the design: this many times as much, and at least this much more [J].

@@ -11,7 +11,9 @@ import numpy as np
 
 from ebac._core import Device, DeviceFacts, Port, Timing
 from ebac._util.arguments import unknown_name
-from ebac.laws import LAWS, CoreLaw, PythonLaw, Variant, checked, design, is_core_law, law_name
+from ebac.laws import LAWS, CoreLaw, PythonLaw, Variant, design, law_name
+from ebac.laws.making import checked
+from ebac.laws.protocols import is_core_law
 
 if TYPE_CHECKING:
     from ebac.testing.contract import LawContract

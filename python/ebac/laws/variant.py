@@ -1,0 +1,117 @@
+"""A law in all its forms: a name, a class, a finished law, or one with parameters changed."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Mapping
+from typing import Any, TypeAlias, cast
+
+from ebac._util.arguments import refuse_unknown, require, unknown_name
+from ebac._util.wrong_calls import plain_constructor
+from ebac.laws.protocols import LAWS, CoreLaw, PythonLaw, is_core_law
+from ebac.laws.tuned_laws import tuned_laws
+
+
+@plain_constructor
+@dataclasses.dataclass(frozen=True)
+class Variant:
+    """A law with parameters changed on top of its design, designed again wherever the law would be.
+
+    Attributes
+    ----------
+    law : str or law class
+        A name of `LAWS`, or a class of the core.
+    changes : mapping
+        Parameters by name, in their SI units.
+
+    Raises
+    ------
+    KeyError
+        For a name that is no law.
+    ValueError
+        For a parameter out of range.
+    TypeError
+        For something that is no law, a parameter that it does not have, or a value of a wrong type.
+    """
+
+    law: str | type[CoreLaw]
+    changes: Mapping[str, Any]
+
+    def __post_init__(self) -> None:
+        """Check law and changes."""
+        require(self.law, (str, type), "Variant", "a law of ebac.LAWS or its class")
+        require(self.changes, Mapping, "Variant", "changes by name, as in {'kp': 0.2}")
+        kind = class_of(self.law)
+        refuse_unknown(kind.__name__, self.changes, [field.name for field in kind.fields()])
+        kind(**self.changes)
+
+    @property
+    def name(self) -> str:
+        """The law's name and its changes: "ebac, guard = off"."""
+        return ", ".join(
+            [law_name(self.law), *(f"{n} = {shown_value(v)}" for n, v in self.changes.items())]
+        )
+
+
+AnyLaw: TypeAlias = str | type[CoreLaw] | type[PythonLaw] | CoreLaw | PythonLaw | Variant
+
+
+def changed(law: AnyLaw, **changes: Any) -> AnyLaw:
+    """Return a law with some parameters changed, to be used wherever the law can be.
+
+    Parameters
+    ----------
+    law : str, law class, Variant, law or PythonLaw
+        What is designed stays so, as a `Variant`; a finished law is copied, one in Python when it is a dataclass.
+    **changes
+        Parameters in their SI units.
+
+    Raises
+    ------
+    TypeError
+        For a law in Python that is no dataclass.
+    """
+    if isinstance(law, Variant):
+        return Variant(law.law, {**law.changes, **changes})
+    if isinstance(law, (str, type)):
+        return Variant(cast("str | type[CoreLaw]", law), changes)
+    if is_core_law(law):
+        return law.replace(**changes)
+    if not hasattr(law, "__dataclass_fields__"):
+        raise TypeError(f"{law!r} cannot be changed: a law in Python must be a dataclass for that")
+    own: Any = law
+    return cast(PythonLaw, dataclasses.replace(own, **changes))
+
+
+def class_of(law: str | type) -> type[CoreLaw]:
+    """Return the class of a law, which may go by its name or that of one with tuned parameters."""
+    if isinstance(law, str):
+        name = law.partition("-tuned")[0] if law in tuned_laws() else law
+        if name not in LAWS:
+            raise unknown_name("law", law, [*LAWS, *tuned_laws()])
+        return LAWS[name]
+    if not hasattr(law, "_simulate"):
+        name = law.__name__
+        raise TypeError(
+            f"{name} is a class: give an instance of it, {name}(...), or give it a classmethod design(facts, timing)"
+        )
+    return cast("type[CoreLaw]", law)
+
+
+def law_name(law: AnyLaw) -> str:
+    """Return the name a law goes by in tables and plots.
+
+    Parameters
+    ----------
+    law : str, type or law
+        A name, a law or a `Variant`.
+    """
+    if isinstance(law, str):
+        return law
+    kind = law if isinstance(law, type) else type(law)
+    return str(getattr(law, "name", kind.__name__))
+
+
+def shown_value(value: bool | float) -> str:
+    """Return a parameter's value as people read it: on, off or a number."""
+    return ("on" if value else "off") if isinstance(value, bool) else f"{value:g}"
