@@ -427,11 +427,7 @@ def test_a_fault_is_told_and_its_log_kept(monkeypatch: pytest.MonkeyPatch, tmp_p
             "study --device-friction 1",
             "did you mean --device-coulomb or --device-friction-compensation; see",
         ),
-        (
-            "study --law mine.py:Mine",
-            "--law mine.py:Mine: no such name; `ebac laws` lists all; a law of your own is used from Python",
-        ),
-        ("wall --law mine.py:Mine", "see docs/how-to/write_a_law.md"),
+        ("ablation --law mine.py:Mine", "here a law of your own is used from Python only"),
         (
             "wall --change guard=off",
             "--change: there is no such option here; `ebac ablation`, `ebac stiffest`, `ebac worst` and `ebac zwidth` "

@@ -4,15 +4,17 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Sequence
+from typing import TYPE_CHECKING
 
 from ebac._util.arguments import unknown
 from ebac.cli import doubtful_wall
+from ebac.cli.own_law import FORM, own_law
 
-#: What follows where a law looks like a file or a class.
-_OWN_LAW = (
-    "; a law of your own is used from Python, as in ebac.study(hands, {'mine': Mine()}): see "
-    "docs/how-to/write_a_law.md"
-)
+if TYPE_CHECKING:
+    from ebac.laws import AnyLaw
+
+#: What follows where a law looks like a file or a class, of a command that takes the package's laws only.
+_OWN_LAW = "; here a law of your own is used from Python only: see docs/how-to/write_a_law.md"
 
 
 def one_law(name: str, option: str = "--law") -> str:
@@ -33,8 +35,11 @@ def designed_law(name: str, where: str) -> str:
     return one_law(name)
 
 
-def law_names(given: Sequence[str], option: str = "--law") -> list[str]:
-    """Return the laws of names in any case, separated by commas, each once, in the order given; `all` is every law."""
+def law_names(given: Sequence[str], option: str = "--law", own: str = _OWN_LAW) -> list[str]:
+    """Return the laws of names in any case, separated by commas, each once, in the order given; `all` is every law.
+
+    `own` is what follows where a law looks like a file or a class.
+    """
     from ebac.laws import LAWS
     from ebac.laws.tuned_laws import tuned_laws
 
@@ -43,12 +48,49 @@ def law_names(given: Sequence[str], option: str = "--law") -> list[str]:
     for word in _words(given, option):
         name = word.lower().replace("_", "-")
         if name not in known and name != "all":
-            own = _OWN_LAW if re.search(r"[.:/]", word) else ""
-            raise ValueError(unknown(f"{option} {word}", name, [*known, "all"], "law") + own)
+            hint = own if re.search(r"[.:/]", word) else ""
+            raise ValueError(unknown(f"{option} {word}", name, [*known, "all"], "law") + hint)
         names += LAWS if name == "all" else [name]
     chosen = list(dict.fromkeys(names))
     _tell_tuned([name for name in chosen if name not in LAWS])
     return chosen
+
+
+def laws(given: Sequence[str], option: str = "--law") -> dict[str, AnyLaw]:
+    """Return laws by their names in tables: those of `law_names`, and laws of one's own, `file.py:Name`.
+
+    Raises
+    ------
+    ValueError
+        For a name that is no law, or a law of one's own whose name another has.
+    """
+    from ebac.laws import LAWS, law_name
+
+    found: dict[str, AnyLaw] = {}
+    for word in dict.fromkeys(_words(given, option)):
+        if not _is_own(word):
+            found |= {name: name for name in law_names([word], option, own=f"; {FORM}")}
+            continue
+        law = own_law(word, option)
+        name = law_name(law)
+        if name in LAWS or name in found:
+            raise ValueError(
+                f"{option} {word}: its name is {name}, as that of another law; give its class another `name`"
+            )
+        found[name] = law
+    return found
+
+
+def own_words(given: Sequence[str], option: str = "--law") -> dict[str, str]:
+    """Return how laws of one's own were given on the command line, by their names in tables."""
+    from ebac.laws import law_name
+
+    words = filter(_is_own, _words(given, option))
+    return {law_name(own_law(word, option)): word for word in words}
+
+
+def _is_own(word: str) -> bool:
+    return ":" in word or word.endswith(".py")
 
 
 def _tell_tuned(names: Sequence[str]) -> None:

@@ -32,7 +32,8 @@ def laws(default: str, *, panel: str = RUN) -> Any:
     return typer.Option(
         "--law",
         "-l",
-        help="A law by name, see `ebac laws`; several separated by commas, `all` for every law.",
+        help="A law by name, see `ebac laws`, or of your own, FILE.py:NAME; several separated by commas, `all` for "
+        "every law of the package.",
         show_default=default,
         rich_help_panel=panel,
         autocompletion=completion.laws,

@@ -36,7 +36,7 @@ def console(*, stderr: bool = False) -> Console:
     """Return where people read."""
     from rich.console import Console
 
-    return Console(stderr=stderr, highlight=False)
+    return Console(stderr=stderr, highlight=False, emoji=False)
 
 
 def say(text: str = "", *, style: str = "") -> None:

@@ -39,7 +39,7 @@ def show(grid: Table) -> None:
     """Print a table; one wider than the screen with narrow gaps, and in parts where that is not enough."""
     from rich.console import Console
 
-    screen = Console(highlight=False)
+    screen = Console(highlight=False, emoji=False)
     every = list(range(len(grid.columns)))
     least = [_least(column) for column in grid.columns]
     gap, parts = GAP, _parts(grid, least, screen.width, GAP)

@@ -69,7 +69,7 @@ def changed(law: AnyLaw, **changes: Any) -> AnyLaw:
     Raises
     ------
     TypeError
-        For a law in Python that is no dataclass.
+        For a law in Python that is no dataclass, or a parameter that it does not have.
     """
     if isinstance(law, Variant):
         return Variant(law.law, {**law.changes, **changes})
@@ -80,6 +80,7 @@ def changed(law: AnyLaw, **changes: Any) -> AnyLaw:
     if not hasattr(law, "__dataclass_fields__"):
         raise TypeError(f"{law!r} cannot be changed: a law in Python must be a dataclass for that")
     own: Any = law
+    refuse_unknown(type(law).__name__, changes, [one.name for one in dataclasses.fields(own)])
     return cast(PythonLaw, dataclasses.replace(own, **changes))
 
 

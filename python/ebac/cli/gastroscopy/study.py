@@ -58,7 +58,7 @@ def study(
     from ebac.gastroscope.study import STRAIGHT
 
     with output.refusing():
-        names = by_name.law_names(law or ["direct", "ebac"])
+        laws = by_name.laws(law or ["direct", "ebac"])
         delays = delay or [0.0, 0.05, 0.1]
         base = Procedure(
             master=how.master(0.0),
@@ -70,7 +70,7 @@ def study(
         folder = to.folder("gastroscopy-study", as_json=as_json)
         with output.counting("simulating", quiet=as_json) as progress:
             found = gastroscopy_study(
-                names,
+                list(laws.values()),
                 delays=delays,
                 count=physicians,
                 seed=seed,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Annotated, TypeAlias
 
 import typer
@@ -9,7 +10,7 @@ import typer
 from ebac.cli import options, setting
 
 if TYPE_CHECKING:
-    from ebac.laws import Variant
+    from ebac.laws import AnyLaw
 
 Change: TypeAlias = Annotated[
     list[str] | None,
@@ -21,32 +22,36 @@ Change: TypeAlias = Annotated[
 ]
 
 
-def beside(names: list[str], changes: list[str]) -> dict[str, str | Variant]:
-    """Return the laws by name, and the one of `changes` once more with each of them."""
-    from ebac.laws import Variant
+def beside(laws: Mapping[str, AnyLaw], changes: Sequence[str]) -> dict[str, AnyLaw]:
+    """Return laws by name, and the only one once more with each of `changes`."""
+    from ebac.laws import changed
 
-    laws: dict[str, str | Variant] = {name: name for name in names}
-    _of_one(names, changes)
-    for change in changes:
-        laws[f"{names[0]}, {change}"] = Variant(names[0], setting.parse_change(change))
-    return laws
+    _of_one(laws, changes)
+    more = {
+        f"{name}, {change}": changed(law, **setting.parse_change(change))
+        for change in changes
+        for name, law in laws.items()
+    }
+    return {**laws, **more}
 
 
-def instead(names: list[str], changes: list[str]) -> list[str | Variant]:
-    """Return the laws by name, or the only one with other parameters, which are given once."""
-    from ebac.laws import Variant
+def instead(laws: Mapping[str, AnyLaw], changes: Sequence[str]) -> list[AnyLaw]:
+    """Return laws, or the only one with other parameters, which are given once."""
+    from ebac.laws import changed
 
-    _of_one(names, changes)
+    _of_one(laws, changes)
     if len(changes) > 1:
         raise ValueError(
             f"--change {changes[1]}: one law is searched, and --change {changes[0]} was given already; "
             f"separate the changes by commas: --change {','.join(changes)}"
         )
-    return [Variant(names[0], setting.parse_change(one)) for one in changes] or [*names]
+    if not changes:
+        return list(laws.values())
+    return [changed(law, **setting.parse_change(changes[0])) for law in laws.values()]
 
 
-def _of_one(names: list[str], changes: list[str]) -> None:
-    if changes and len(names) != 1:
+def _of_one(laws: Mapping[str, AnyLaw], changes: Sequence[str]) -> None:
+    if changes and len(laws) != 1:
         raise ValueError(
-            f"--change {changes[0]}: changes one law, not {len(names)}; give one --law, as --law {names[0]}"
+            f"--change {changes[0]}: changes one law, not {len(laws)}; give one --law, as --law {next(iter(laws))}"
         )

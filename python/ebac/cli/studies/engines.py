@@ -49,12 +49,12 @@ def engines(
     from ebac.studies.engines import engines as compare
 
     with output.refusing():
-        names = by_name.law_names(law or LAWS)
+        laws = by_name.laws(law or LAWS)
         base = _scenario(setup)
         folder = to.folder("engines", as_json=as_json)
         with output.counting("simulating", quiet=as_json) as progress:
             found = compare(
-                names,
+                list(laws.values()),
                 base=base,
                 rates=engine_rate or RATES,
                 jitter=JITTER if engine_jitter is None else engine_jitter,

@@ -13,6 +13,7 @@ from ebac.cli import by_name, from_options, interrupts, options, output
 from ebac.cli.files import ResultOptions
 
 if TYPE_CHECKING:
+    from ebac.laws import AnyLaw
     from ebac.scenario import Scenario
     from ebac.studies.maps import StabilityMap
     from ebac.studies.maps.axes import MapAxis
@@ -72,13 +73,13 @@ def map_(
 
     with output.refusing():
         x, y = _quantities(kind)
-        names = by_name.law_names(law or ["ebac"])
+        laws = by_name.laws(law or ["ebac"])
         base = from_options.scenario(setup, seconds=2.0)
         xs = _values("x", AXES[x], base, side, x_low, x_high)
         ys = _values("y", AXES[y], base, side, y_low, y_high)
-    folder = to.folder("map", as_json=as_json, resume=BUNDLES.format(names[0]) * resume)
+    folder = to.folder("map", as_json=as_json, resume=BUNDLES.format(next(iter(laws))) * resume)
     given = {"base": base, "x": x, "y": y, "xs": xs, "ys": ys, "threads": threads}
-    maps = [_run(name, given, folder, resume, quiet=as_json) for name in names]
+    maps = [_run(name, one, given, folder, resume, quiet=as_json) for name, one in laws.items()]
     to.report(
         folder, "map", _document(maps), as_json=as_json,
         fill=lambda draft: _fill(draft, maps, to, quiet=as_json), show=lambda: _show(maps),
@@ -120,15 +121,15 @@ def _quantities(kind: str) -> tuple[str, str]:
 
 
 def _run(
-    law: str, given: dict[str, Any], folder: Path | None, resume: bool, *, quiet: bool
+    name: str, law: AnyLaw, given: dict[str, Any], folder: Path | None, resume: bool, *, quiet: bool
 ) -> StabilityMap:
     from ebac.studies.maps import stability_map
 
-    kept = None if folder is None else folder / BUNDLES.format(law)
+    kept = None if folder is None else folder / BUNDLES.format(name)
     with (
         interrupts.resumable("map", folder),
         output.refusing(folder),
-        output.counting(f"mapping {law}", quiet=quiet) as progress,
+        output.counting(f"mapping {name}", quiet=quiet) as progress,
     ):
         return stability_map(law, out=kept, resume=resume, progress=progress, **given)
 

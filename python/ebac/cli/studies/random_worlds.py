@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -109,7 +109,7 @@ def random_worlds(
     from ebac.studies.world_kinds import KINDS
 
     with output.refusing():
-        names = by_name.law_names(law or ["ebac"])
+        laws = by_name.laws(law or ["ebac"])
         folder = to.folder("random-worlds", as_json=as_json)
         interrupts.keeping(
             "nothing was written; the same command starts from the beginning, and fewer --hands, --kind or --device "
@@ -117,7 +117,7 @@ def random_worlds(
         )
         with output.counting("simulating", quiet=as_json) as progress:
             found = simulate_all(
-                names,
+                laws,
                 kinds=_names("--kind", kind, KINDS),
                 devices=_names("--device", device, DEVICES),
                 stiffnesses=list(dict.fromkeys(stiffness)) if stiffness else STIFFNESSES,
@@ -133,7 +133,7 @@ def random_worlds(
     def show() -> None:
         _show(found)
         if folder is not None:
-            _tell_replay(found, folder)
+            _tell_replay(found, folder, by_name.own_words(law or []))
 
     to.report(
         folder, "random-worlds", _document(found), as_json=as_json,
@@ -237,7 +237,8 @@ def _sentence(total: RandomWorldRow) -> str:
     return f"{total.law}: of {output.plural(total.hands, 'run')}{came_to} the worst drew {most}."
 
 
-def _tell_replay(found: RandomWorlds, folder: Path) -> None:
+def _tell_replay(found: RandomWorlds, folder: Path, own: Mapping[str, str]) -> None:
     output.say("\nReplay the worst hand of each law:", style="bold")
     for total in found.totals():
-        output.path(f"ebac wall --law {total.law} --scenario {folder / _file(total)}.toml")
+        law = own.get(total.law, total.law)
+        output.path(f"ebac wall --law {law} --scenario {folder / _file(total)}.toml")

@@ -71,7 +71,7 @@ def shapes(
     from ebac.studies.shapes import shapes as compare
 
     with output.refusing():
-        names = by_name.law_names(law or LAWS)
+        laws = by_name.laws(law or LAWS)
         devices = output.words(device) or DEVICES
         for name in devices:
             setting.known_device(name)
@@ -82,7 +82,7 @@ def shapes(
             output.counting("simulating", quiet=as_json) as progress,
         ):
             found = compare(
-                names,
+                list(laws.values()),
                 worlds=output.words(world) or WORLDS,
                 stiffnesses=list(dict.fromkeys(stiffness)) if stiffness else STIFFNESSES,
                 devices=[name.lower() for name in devices],

@@ -71,7 +71,7 @@ def stiffest(
     * `ebac stiffest --law all --no-device-sensor --share 0.95`: no force sensor, and 3 of the 60 hands may be lost
     """
     with output.refusing():
-        laws = changed_laws.beside(by_name.law_names(law or ["all"]), change or [])
+        laws = changed_laws.beside(by_name.laws(law or ["all"]), change or [])
         _check(share, wall_stiffness or ())
         given: dict[str, Any] = {
             "population": hands.operators(),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -12,6 +13,7 @@ from ebac.cli.files import PANEL, ResultOptions
 from ebac.cli.studies import replaced, short_runs, study_results
 
 if TYPE_CHECKING:
+    from ebac.laws import AnyLaw
     from ebac.operators import Operators
     from ebac.studies import Study
 
@@ -77,7 +79,7 @@ def study(
     from ebac.studies.study import LAWS
 
     with output.refusing():
-        names = by_name.law_names(law or LAWS)
+        laws = by_name.laws(law or LAWS)
         people = hands.operators(approach)
         given: dict[str, Any] = {
             "base": from_options.scenario(device, length),
@@ -89,7 +91,7 @@ def study(
         weak_motor.tell(people, given["base"])
         short_runs.tell(given["base"])
     folder = to.folder("study", as_json=as_json, resume=study_results.BUNDLES * resume)
-    found = _run(people, names, given, folder, resume, quiet=as_json)
+    found = _run(people, laws, given, folder, resume, quiet=as_json)
     to.report(
         folder, "study", found.to_json(), as_json=as_json,
         fill=lambda draft: study_results.fill(draft, found, traces, to, quiet=as_json),
@@ -99,7 +101,7 @@ def study(
 
 def _run(
     people: Operators,
-    names: list[str],
+    laws: Mapping[str, AnyLaw],
     given: dict[str, Any],
     folder: Path | None,
     resume: bool,
@@ -114,4 +116,4 @@ def _run(
         output.counting("simulating", quiet=quiet) as progress,
     ):
         bundles = None if folder is None else folder / study_results.BUNDLES
-        return run_study(people, names, out=bundles, resume=resume, progress=progress, **given)
+        return run_study(people, laws, out=bundles, resume=resume, progress=progress, **given)

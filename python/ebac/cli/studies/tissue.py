@@ -47,10 +47,10 @@ def tissue(
     from ebac.studies.tissue import tissue as compare
 
     with output.refusing():
-        names = by_name.law_names(law or LAWS)
+        laws = by_name.laws(law or LAWS)
         folder = to.folder("tissue", as_json=as_json)
         with output.counting("simulating", quiet=as_json) as progress:
-            found = compare(names, depth=depth, speed=speed, progress=progress)
+            found = compare(list(laws.values()), depth=depth, speed=speed, progress=progress)
     to.report(
         folder, "tissue", _document(found), as_json=as_json,
         fill=lambda draft: _fill(draft, found, to), show=lambda: _show(found),

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -112,8 +112,8 @@ def worst(
     from ebac.studies.worst import worst as search
 
     with output.refusing():
-        names = by_name.law_names(law or ["ebac"])
-        chosen = changed_laws.instead(names, change or [])
+        laws = by_name.laws(law or ["ebac"])
+        chosen = changed_laws.instead(laws, change or [])
         base = from_options.scenario(device, length)
         wanted = by_name.one_condition(condition or options.usual_condition(length))
         replaced.tell(base, [wanted])
@@ -139,7 +139,7 @@ def worst(
         else:
             worst_tables.show_one(found[0], evaluations)
         if folder is not None:
-            _tell_replay(found, folder, names, changed=bool(change))
+            _tell_replay(found, folder, by_name.own_words(law or []), changed=bool(change))
 
     to.report(
         folder, "worst", _document(found, evaluations, seed, length.seconds), as_json=as_json,
@@ -186,14 +186,15 @@ def _file(one: Worst, hand: WorstHand, found: Sequence[Worst]) -> str:
 
 
 def _tell_replay(
-    found: Sequence[Worst], folder: Path, names: Sequence[str], *, changed: bool
+    found: Sequence[Worst], folder: Path, own: Mapping[str, str], *, changed: bool
 ) -> None:
     from ebac.studies.worst import replays
 
-    for one, law in zip(found, names, strict=True):
+    for one in found:
         top = one.hands[0]
         if not changed and replays(one.condition, top.scenario):
             file = folder / f"{_file(one, top, found)}.toml"
+            law = own.get(one.law, one.law)
             _replay_line(f"ebac wall --law {law} --scenario {file}", first=one is found[0])
         else:
             output.say(

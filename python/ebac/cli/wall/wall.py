@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -14,6 +14,7 @@ from ebac.cli.files import PANEL, ResultOptions
 from ebac.cli.wall import results as wall_results
 
 if TYPE_CHECKING:
+    from ebac.laws import AnyLaw
     from ebac.scenario import Scenario
     from ebac.trace import Trace
 
@@ -73,8 +74,8 @@ def wall(
     * `ebac wall --out first`, then `ebac wall --scenario first/scenario.toml --seed 7`: another seed
     """
     with output.refusing():
-        names = by_name.law_names(law or DEFAULT_LAWS)
-        logs = wall_results.log_names(log, names, force=to.force)
+        laws = by_name.laws(law or DEFAULT_LAWS)
+        logs = wall_results.log_names(log, list(laws), force=to.force)
         chosen = from_options.scenario(setup, engine)
         _check_length(chosen)
         warning = ""
@@ -83,7 +84,7 @@ def wall(
     folder = to.folder("wall", as_json=as_json)
     if warning and not as_json:
         output.say(f"Warning: {warning}.", style="yellow")
-    _run(chosen, names, through, folder, logs, to, as_json)
+    _run(chosen, laws, through, folder, logs, to, as_json)
 
 
 def _on_bus(scenario: Scenario, through: str) -> tuple[Scenario, str]:
@@ -109,7 +110,7 @@ def _check_length(scenario: Scenario) -> None:
 
 def _run(
     scenario: Scenario,
-    names: list[str],
+    laws: Mapping[str, AnyLaw],
     through: str | None,
     out: Path | None,
     logs: list[Path],
@@ -120,14 +121,14 @@ def _run(
     from ebac.simulation import LoopFault
 
     files: list[str] = []
-    steps = len(names) * (1 if out is None else 2) + (out is not None) + len(logs)
+    steps = len(laws) * (1 if out is None else 2) + (out is not None) + len(logs)
     try:
         with (
             output.results(out) as draft,
             output.progress(steps, quiet=as_json) as step,
         ):
             with output.refusing():
-                traces = _simulate(scenario, names, through, step)
+                traces = _simulate(scenario, laws, through, step)
                 contacts = [contact(trace) for trace in traces]
                 bodies = wall_results.in_world(traces)
             text = wall_results.document(scenario, contacts, through, bodies)
@@ -149,16 +150,16 @@ def _run(
 
 
 def _simulate(
-    scenario: Scenario, names: list[str], through: str | None, step: Callable[[str], None]
+    scenario: Scenario, laws: Mapping[str, AnyLaw], through: str | None, step: Callable[[str], None]
 ) -> list[Trace]:
     from ebac.simulation import simulate
 
     traces = []
-    for name in names:
+    for name, law in laws.items():
         step(f"simulating {name}")
         with warnings.catch_warnings(record=True) as caught:
             warnings.simplefilter("always", UserWarning)
-            traces.append(simulate(scenario, name, through=through))
+            traces.append(simulate(scenario, law, through=through))
         for one in caught:
             if "engine" in str(one.message):  # the load of the bus has been reported
                 output.console(stderr=True).print(

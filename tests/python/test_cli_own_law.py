@@ -1,0 +1,184 @@
+"""A law of one's own on the command line, `--law file.py:Name`."""
+
+import json
+import re
+from pathlib import Path
+from typing import Any
+
+import pytest
+from typer.testing import CliRunner
+
+import ebac
+from ebac.cli import app
+
+MINE = """
+from dataclasses import dataclass
+
+print("I am read")
+
+
+@dataclass
+class Damped:
+    damping: float = 30.0
+    name = "damped"
+
+    def step(self, port):
+        return port.f_env + self.damping * port.v if port.f_env > 0 else 0.0
+
+    def reset(self):
+        pass
+
+
+class Designed(Damped):
+    name = "designed"
+
+    @classmethod
+    def design(cls, facts, timing, **changes):
+        return cls(40.0 * facts.mass / 0.25)
+
+
+class Direct(Damped):
+    name = "direct"
+
+
+class Needs(Damped):
+    def __init__(self, damping):
+        super().__init__(damping)
+
+
+class NoReset:
+    def step(self, port):
+        return 0.0
+
+
+softer = Damped(25.0)
+"""
+
+
+@pytest.fixture(autouse=True)
+def mine(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr("sys.path", [*__import__("sys").path])
+    file = tmp_path / "mine.py"
+    file.write_text(MINE, encoding="utf-8")
+    return file
+
+
+def run(*words: str) -> Any:
+    return CliRunner().invoke(app, words)
+
+
+def rows(*words: str) -> list[dict[str, Any]]:
+    result = run(*words, "--json")
+    assert result.exit_code == 0, result.output
+    found: list[dict[str, Any]] = json.loads(result.stdout)[
+        "rows"
+    ]  # what the file prints is not here
+    return found
+
+
+@pytest.mark.parametrize(
+    ("word", "name", "damping"),
+    [("mine.py:Damped", "damped", 30), ("mine.py:softer", "damped", 25), ("mine.py:Designed", "designed", 40)],
+)  # fmt: skip
+def test_a_class_an_object_and_a_designed_law_give_what_they_give_in_python(
+    word: str, name: str, damping: float
+) -> None:
+    found = rows("wall", "--law", f"direct,{word}", "--seconds", "1")
+    assert [row["law"] for row in found] == ["direct", name]
+
+    class Same:
+        def step(self, port: ebac.Port) -> float:
+            return port.f_env + damping * port.v if port.f_env > 0 else 0.0
+
+        def reset(self) -> None:
+            pass
+
+    told = ebac.contact(ebac.simulate(ebac.Scenario(seconds=1.0), Same()))
+    assert found[1]["rest_m"] == told.rest_m
+    assert found[1]["peak_m"] == told.peak_m
+
+
+def test_a_module_is_imported_by_its_name() -> None:
+    Path("importable.py").write_text(MINE, encoding="utf-8")
+    assert rows("wall", "--law", "importable:Damped", "--seconds", "1")[0]["law"] == "damped"
+
+
+def test_a_file_imports_what_lies_beside_it(tmp_path: Path) -> None:
+    (tmp_path / "laws").mkdir()
+    (tmp_path / "laws" / "beside_it.py").write_text("DAMPING = 20.0\n", encoding="utf-8")
+    text = "from beside_it import DAMPING\n" + MINE.replace("30.0", "DAMPING")
+    (tmp_path / "laws" / "uses.py").write_text(text, encoding="utf-8")
+    assert rows("wall", "--law", "laws/uses.py:Damped", "--seconds", "1")[0]["law"] == "damped"
+
+
+@pytest.mark.parametrize(
+    "command",
+    [
+        "study --population random --hands 2",
+        "map --side 2",
+        "stiffest --population random --hands 1",
+        "zwidth --points 2 --delay 1 --most-stiffness 3000 --seconds 0.5",
+        "random-worlds --kind planes --device 2-axes --hands 1",
+        "shapes --world sphere --device reference --stiffness 2000",
+        "worst --family impact --evaluations 40 --seconds 0.5",
+    ],
+)
+def test_the_commands_that_compare_laws_take_it(command: str) -> None:
+    assert "damped" in {row["law"] for row in rows(*command.split(), "--law", "mine.py:Damped")}
+
+
+def test_a_search_changes_its_parameters_and_says_how_to_simulate_its_hand_again() -> None:
+    command = "worst --law mine.py:Damped --family impact --evaluations 40 --seconds 0.5 --out"
+    words = command.split()
+    result = run(*words, "found")
+    assert "ebac wall --law mine.py:Damped --scenario found/" in " ".join(result.stdout.split())
+    told = run(*words, "other", "--change", "dampin=40")
+    assert told.exit_code == 2
+    assert "did you mean 'damping'" in told.stderr
+
+
+@pytest.mark.parametrize(
+    ("word", "told"),
+    [
+        ("mine.py", "--law mine.py: its laws are mine.py:Damped, mine.py:Designed, mine.py:Direct"),
+        ("mine.py:Dampd", "mine.py has no Dampd; its laws are mine.py:Damped"),
+        ("mine.py:Direct", "its name is direct, as that of another law"),
+        ("mine.py:Damped,mine.py:softer", "its name is damped, as that of another law"),
+        ("mine.py:Needs", "Needs() raises TypeError: Needs.__init__() missing 1 required positional argument"),
+        ("mine.py:NoReset", "NoReset is no law: it needs reset()"),
+        ("empty.py:Mine", "empty.py has no Mine; it has no law"),
+        ("zero.py:X", "--law zero.py:X: zero.py raises ZeroDivisionError: division by zero (zero.py, line 2)"),
+        ("grammar.py:X", "grammar.py raises SyntaxError: invalid syntax (grammar.py, line 1)"),
+        ("lacks.py:X", "lacks.py raises ModuleNotFoundError: No module named 'not_there' (lacks.py, line 1)"),
+        ("nowhere.py:Mine", "there is no file nowhere.py"),
+        ("nowhere:Mine", "there is no module nowhere; a law of your own is given as FILE.py:NAME"),
+        (":Mine", "a law of your own is given as FILE.py:NAME or MODULE:NAME"),
+        ("mine.Damped", "no such name; `ebac laws` lists all; a law of your own is given as FILE.py:NAME"),
+    ],
+)  # fmt: skip
+def test_what_is_no_law_is_refused_by_its_name(word: str, told: str) -> None:
+    files = {
+        "empty": "",
+        "zero": "\nx = 1 / 0\n",
+        "grammar": "def f(:\n",
+        "lacks": "import not_there\n",
+    }
+    for name, text in files.items():
+        Path(f"{name}.py").write_text(text, encoding="utf-8")
+    result = run("wall", "--law", word, "--seconds", "1")
+    assert result.exit_code == 2
+    assert told in " ".join(result.stderr.split())
+    assert "Traceback" not in result.output
+    assert not list(Path().glob("ebac-*"))
+
+
+def test_what_a_law_raises_ends_the_run_and_names_it() -> None:
+    Path("raises.py").write_text(
+        re.sub(r"return port.*", "raise OverflowError('wide')", MINE), encoding="utf-8"
+    )
+    result = run("wall", "--law", "raises.py:Damped", "--no-files")
+    assert result.exit_code != 0
+    assert "damped" in result.stderr.lower()
+    assert "wide" in result.stderr
+    assert "Traceback" not in result.output
