@@ -218,7 +218,6 @@ ROOMS = [
     *(
         "_util",
         "presets",
-        "tuned_laws",
         "laws",
         "specs",
         "hands",

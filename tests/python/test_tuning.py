@@ -12,6 +12,7 @@ import pytest
 from typer.testing import CliRunner
 
 import ebac
+from ebac import laws
 from ebac.cli import app
 from ebac.laws import design
 from ebac.laws.tuned_laws import tuned, tuned_laws
@@ -20,7 +21,7 @@ from ebac.studies import TuningInterrupted, tune, tuning
 FEW = ebac.Operators.sample(3, 5)
 #: What the package has, by the ending of the laws' names.
 TABLES = {
-    ending: json.loads(Path(ebac.__file__).with_name(file).read_text(encoding="utf-8"))["rows"]
+    ending: json.loads(Path(laws.__file__).with_name(file).read_text(encoding="utf-8"))["rows"]
     for ending, file in (
         ("-tuned", "tuned_rivals.json"),
         ("-tuned-observer", "tuned_rivals_observer.json"),
