@@ -499,6 +499,20 @@ def test_an_overview_writes_energies_with_their_unit_and_names_level() -> None:
     check_inside(overview)
 
 
+@pytest.mark.parametrize("width", [None, "double"])
+def test_an_overview_of_many_laws_has_room_for_each(width: str | None) -> None:
+    laws = [*ebac.LAWS, "tca-damped-tuned-observer", "lag-compensator-tuned-observer"]
+    found = study(Operators.grid()[:2], laws, ["d1K10"], base=ebac.Scenario(seconds=0.5))
+    _, overview = next(plot_study(found))
+    with fitted(overview, None if width is None else millimetres(width) / 25.4):
+        overview.draw_without_rendering()
+        for ax in overview.axes:
+            names = (*ax.get_xticklabels(), *ax.get_yticklabels())
+            boxes = [text.get_window_extent() for text in (*ax.texts, *names)]
+            assert not any(one.overlaps(other) for one, other in itertools.combinations(boxes, 2))
+    check_inside(overview)
+
+
 def test_hands_that_fail_show_on_top_of_good_ones() -> None:
     base = ebac.Scenario(seconds=3.0)
     found = study(Operators.grid()[:20], ["lag-compensator"], ["d1K20"], base=base)

@@ -35,6 +35,8 @@ NARROWEST, WIDEST = 40.0, 1000.0
 _MM = 1 / 25.4
 #: Panels of a figure narrower than this stand below one another [in].
 NARROW = 5.0
+#: So do those of one that shrinks further than to this share of its width as drawn.
+SHRUNK = 0.4
 #: One figure is drawn at a time: matplotlib's parser of formulas is shared by all threads.
 _DRAWING = RLock()
 
@@ -87,7 +89,8 @@ def save(
         )
     inches = None if width is None else _MM * millimetres(width)
     narrow = getattr(figure, "narrow", None)
-    if narrow is not None and inches is not None and inches < NARROW:
+    least = max(NARROW, SHRUNK * figure.get_figwidth())
+    if narrow is not None and inches is not None and inches < least:
         figure = narrow()
     dpi = DPI if inches is None else PRINT_DPI
     with fitted(figure, inches, title=title):

@@ -38,6 +38,8 @@ OPAQUE, DARK = 0.75, 0.45
 #: Room for a letter and for a line of a name in a table [inch], the letters of a line, and the least width of a cell
 #: [inch].
 LETTER, LINE, LETTERS, CELL = 0.08, 0.14, 12, 1.0
+#: Laws that stand side by side below each of two tables.
+BELOW = 7
 #: Letters of a line of a name above a panel, or beside a table.
 LONG = 20
 
@@ -219,24 +221,25 @@ def _overview(study: Study, *, narrow: bool) -> Picture:
         [None if r.most_drawn_J is None else 1e3 * r.most_drawn_J for r in line] for line in every
     ]
     across, down = [_wrapped(law) for law in laws], names
-    if narrow and _turned(laws, names):
-        across, down = names, [_wrapped(law, LONG) for law in laws]
+    if _turned(laws, names, narrow=narrow):
+        across, down = names, [_wrapped(law, LONG) for law in laws] if narrow else laws
         good, still, drawn = ([*map(list, zip(*one, strict=True))] for one in (good, still, drawn))
-    upright = narrow and (5 - _wide(down)) / len(across) < _wide(across)
+    room = (5 - _wide(down)) / len(across)
+    upright, stacked = narrow and room < _wide(across), narrow and room < CELL
     below = _wide(across) if upright else _high(across)
     if narrow:
-        row = 0.6 if down is names else max(0.36, LINE + _high(down))
+        row = max(0.44 if stacked else 0.24, LINE + _high(down))
         figure = new_figure(5, 2.2 + 2 * (below + row * len(down)))
         left, right = figure.subplots(2, 1)
     else:
-        panel = max(3.2, max(CELL, _wide(across)) * len(laws))  # a title has room
-        figure = new_figure(_wide(down) + 2 * panel, 1.3 + below + 0.24 * len(names))
+        panel = max(3.2, max(CELL, _wide(across)) * len(across))  # a title has room
+        figure = new_figure(_wide(down) + 2 * panel, 1.3 + below + 0.24 * len(down))
         left, right = figure.subplots(1, 2, sharey=True)
     figure.narrow = partial(_overview, study, narrow=True)
-    _table(left, good, {"cmap": "RdYlBu", "vmin": 0, "vmax": 100}, _short, still, narrow=narrow)
+    _table(left, good, {"cmap": "RdYlBu", "vmin": 0, "vmax": 100}, _short, still, stacked=stacked)
     left.set_title("good hands [%]; in brackets: exact and still", fontsize="medium")
     log: dict[str, Any] = {"cmap": "YlOrRd", "norm": LogNorm(1e-2, 1e5, clip=True)}
-    _table(right, drawn, log, _energy, narrow=narrow)
+    _table(right, drawn, log, _energy, stacked=stacked)
     right.set_title("most energy drawn in any window", fontsize="medium")
     figure.suptitle(
         f"Study, simulated with {len(study.operators)} hands\n"
@@ -251,10 +254,15 @@ def _overview(study: Study, *, narrow: bool) -> Picture:
     return figure
 
 
-def _turned(laws: list[str], names: list[str]) -> bool:
-    """Return whether laws stand beside the tables in one column of a journal: below, their names have no room."""
+def _turned(laws: list[str], names: list[str], *, narrow: bool) -> bool:
+    """Return whether laws stand beside the tables, since their names have no room below.
+
+    Below two tables there is room for `BELOW` laws, in one column of a journal for as many as have the letters.
+    """
+    if len(names) > len(laws):
+        return False
     room = (5 - _wide(names)) / len(laws)
-    return room < _wide([_wrapped(law) for law in laws]) and len(names) <= len(laws)
+    return room < _wide([_wrapped(law) for law in laws]) if narrow else len(laws) > BELOW
 
 
 def _wide(names: list[str]) -> float:
@@ -278,11 +286,11 @@ def _table(
     words: Callable[[float], str],
     beside: list[list[float | None]] | None = None,
     *,
-    narrow: bool,
+    stacked: bool,
 ) -> None:
     """Draw a table in colours; numbers of `beside` stand in brackets where they are larger.
 
-    Narrow cells are high: unit and brackets stand in a line of their own.
+    `stacked`: unit and brackets stand in a line of their own.
     """
     values = np.array([[np.nan if cell is None else cell for cell in line] for line in cells])
     shown = np.where(values == 0, 1e-9, values) if "norm" in style else values
@@ -292,7 +300,7 @@ def _table(
         more = None if beside is None else beside[row][column]
         if more is not None and more > value:
             known += f" ({words(more)})"
-        known = known.replace(" ", "\n") if narrow else known
+        known = known.replace(" ", "\n") if stacked else known
         red, green, blue = OPAQUE * np.array(image.to_rgba(shown[row, column])[:3]) + 1 - OPAQUE
         dark = 0.2126 * red + 0.7152 * green + 0.0722 * blue < DARK
         ax.text(
