@@ -109,6 +109,34 @@ def bias(printed: Printed) -> str:
     return table(["bias", "draws", "delay that is not declared", "draws"], rows)
 
 
+#: Biases [N], and how long the hands wait before they move [s]; the wall [N/m].
+BIASES, WAITS, IMPACT = (0.0, 0.2, 0.3, 1.0, 2.0), (0.0, 0.1, 0.3, 1.0), 2e4
+
+
+def learned_bias(printed: Printed) -> str:
+    """The stiffness on impact of the first contact, where hands wait before they move."""
+    rows = []
+    for offset in BIASES:
+        found = printed.kept(f"bias-learned-{offset:g}", partial(_touched, offset))
+        rows.append([f"{offset:g} N", *(f"{100 * one['impact_share']:.0f} %" for one in found)])
+    waits = ("at once", *(f"after {wait:g} s" for wait in WAITS[1:]))
+    return table(["bias", *(f"the hand moves {wait}" for wait in waits)], rows)
+
+
+def _touched(offset: float) -> list[Row]:
+    wall = ebac.Wall(stiffness=IMPACT, position=0.01)
+    found = []
+    for wait in WAITS:
+        base = scenario(sensor={"bias": offset}).replace(environment=wall, seconds=1.0 + wait)
+        traces = []
+        for one in ebac.Operators.grid().scenarios(base):
+            path = [ebac.Step(target=one.hand.path[0].target, at=wait)]
+            traces.append(ebac.simulate(one.replace(hand=one.hand.replace(path=path)), "ebac"))
+        shares = [ebac.contact(trace).impact_share for trace in traces]
+        found.append({"impact_share": float(np.median(shares))})
+    return found
+
+
 # --- the scale of the force ---
 
 #: Scales of the force sensor, over the true one.

@@ -73,6 +73,7 @@ TABLES: dict[str, Callable[[Printed], str]] = {
     "limits-rate": limits.rate,
     "limits-noise": sensors.noise,
     "limits-bias": sensors.bias,
+    "limits-bias-learned": sensors.learned_bias,
     "limits-scale": sensors.scale,
     "limits-steps": sensors.steps,
     "limits-motor": sensors.motor,
