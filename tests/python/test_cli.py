@@ -104,6 +104,29 @@ def test_the_description_of_a_device_has_its_friction() -> None:
     assert "friction" not in formatting.describe(ebac.Scenario())
 
 
+@pytest.mark.parametrize(
+    ("part", "said"),
+    [
+        ({"sensor": ebac.ForceSensor(bias=0.2, lag=2e-3)}, "sensor without noise, sensor lag 2 ms, sensor bias 0.2 N)"),
+        ({"encoder": ebac.Encoder(counts_per_turn=6283)}, ", count 5 um)"),
+        ({"drive": ebac.Drive(peak_ratio=2.0, current_noise=5e-3)}, ", peak force 21.2 N, drive current noise 5 mA)"),
+        ({"mechanics": ebac.Mechanics(cable_stiffness=1e5)}, ", cable stiffness 100 kN/m)"),
+        ({"sensor": None}, "no force sensor)"),
+        ({"sensor": ebac.ForceSensor(noise=0.03)}, "sensor noise 0.03 N)"),
+    ],
+)  # fmt: skip
+def test_a_device_is_described_by_all_that_is_not_as_in_the_reference(
+    part: dict[str, Any], said: str
+) -> None:
+    described = formatting.described_device(ebac.Device(**part))
+    assert described.startswith("a device (0.25 kg, 2 N s/m, ")
+    assert described.endswith(said)
+
+
+def test_a_device_by_name_is_described_by_its_name() -> None:
+    assert formatting.described_device(ebac.Device()).count(",") == 2
+
+
 def test_a_scenario_is_told_in_one_line() -> None:
     hand = ebac.Hand(path=ebac.Tapping(), tremor_amplitude=1e-3)
     text = formatting.describe(ebac.Scenario(hand=hand, environment=ebac.Corner(), jitter=0.1))

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-from math import degrees, floor, isfinite, log10
+from collections.abc import Iterable, Iterator
+from math import degrees, floor, isclose, isfinite, log10
 from typing import TYPE_CHECKING, Any
 
 from ebac._core import (
@@ -180,7 +180,57 @@ def described_device(device: Device) -> str:
     if not device.sensor.fitted:
         noise = ", no force sensor"
     permille = ", torque in per mille" if device.drive.permille else ""
-    return f"{name} ({device.mass:.4g} kg, {device.mechanics.damping:g} N s/m{hanging}{friction}{noise}{permille})"
+    others = "" if known else "".join(f", {one}" for one in _unusual(device))
+    dynamics = f"{device.mass:.4g} kg, {device.mechanics.damping:g} N s/m"
+    return f"{name} ({dynamics}{hanging}{friction}{noise}{permille}{others})"
+
+
+#: Fields of a device that its description has words of its own for.
+_SAID = {
+    "noise",
+    "fitted",
+    "permille",
+    "handle_mass",
+    "damping",
+    "coulomb",
+    "gravity",
+    "peak_ratio",
+}
+
+
+def _unusual(device: Device) -> Iterator[str]:
+    """Yield what else of a device is not as in the reference device: "count 5 um", "sensor bias 0.2 N"."""
+    usual = Device()
+    for name, value, reference, unit in (
+        ("count", device.count, usual.count, "m"),
+        ("peak force", device.peak_force, usual.peak_force, "N"),
+    ):
+        if not isclose(value, reference, rel_tol=1e-3):
+            yield f"{name} {_prefixed(value, unit)}"
+    for part in ("sensor", "drive", "motor", "mechanics"):
+        given, reference = getattr(device, part), getattr(usual, part)
+        if part == "sensor" and not given.fitted:
+            continue
+        for field in type(given).fields():
+            value = getattr(given, field.name)
+            if field.name in _SAID | _IN_FORCE or value == getattr(reference, field.name):
+                continue
+            name = f"{'' if part == 'mechanics' else part} {field.name.replace('_', ' ')}".strip()
+            yield name if value is True else f"{name} {_prefixed(value, field.unit)}"
+
+
+def _prefixed(value: float, unit: str) -> str:
+    """Return a value with a prefix where it has one: "5 um", "2 ms", "0.2 N", "100 kN/m"."""
+    if abs(value) >= 1e4:
+        return f"{value / 1e3:.4g} k{unit}"
+    if unit not in ("m", "s", "A") or not 0 < abs(value) < 1:
+        return f"{value:.4g} {'' if unit == '1' else unit}".rstrip()
+    small = abs(value) < 1e-3
+    return f"{value * (1e6 if small else 1e3):.4g} {'u' if small else 'm'}{unit}"
+
+
+#: Fields of the motor that its peak force and the mass at the handle stand for.
+_IN_FORCE = {"torque_constant", "rated_torque", "rated_current", "stall_current", "rotor_inertia"}
 
 
 def described_hand(hand: Hand) -> str:
