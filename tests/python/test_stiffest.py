@@ -247,6 +247,27 @@ def test_the_command_has_the_delay_and_wall_damping_of_its_options(tmp_path: Pat
     assert "tca-damped, kp=0" in " ".join(again.split())
 
 
+def test_the_command_says_what_a_wall_is_like_that_is_exact_and_not_quiet() -> None:
+    words = (
+        *FEW[:4],
+        "--seconds",
+        "3",
+        "--law",
+        "tca-damped,ebac",
+        "--wall-stiffness",
+        "5000",
+        "--no-files",
+    )
+    text = " ".join(command(*words).split())
+    row = next(
+        row for row in json.loads(command(*words, "--json"))["rows"] if row["law"] == "tca-damped"
+    )
+    assert row["good_N_per_m"] is None
+    assert "tca-damped: at 5 kN/m, exact and still, not quiet in force," in text
+    assert f"{row['exact_and_still_impact_share']:.0%} on impact".replace("%", " %") in text
+    assert "ebac: at" not in text
+
+
 def test_the_command_refuses_by_the_names_of_its_options() -> None:
     assert "--share = 2: must lie in (0, 1]" in command("--share", "2", code=2)
     assert "did you mean 'direct'" in " ".join(command("--law", "dirct", code=2).split())

@@ -163,6 +163,7 @@ def _show(found: Stiffest) -> None:
         )
     output.show(grid)
     _show_again(found)
+    _show_exact_only(found)
     output.say(
         f"Up to which: all softer ones of the {output.plural(len(found.stiffnesses), 'wall')} tried hold, too; none: "
         f"the softest, {1e-3 * found.stiffnesses[0]:g} kN/m, fails. Drawn: most energy that any hand draws in any "
@@ -185,6 +186,20 @@ def _show_again(found: Stiffest) -> None:
         if walls:
             named = ", ".join(f"{1e-3 * wall:g}" for wall in walls)
             output.say(f"{law}: good at {named} kN/m, too, beyond a softer wall that fails.")
+
+
+def _show_exact_only(found: Stiffest) -> None:
+    """Say what the stiffest exact wall is like under laws that are good at none."""
+    from ebac._util import formatting
+
+    for row in found.rows:
+        if row.good_N_per_m is None and row.exact_and_still_N_per_m is not None:
+            output.say(
+                f"{row.law}: at {1e-3 * row.exact_and_still_N_per_m:g} kN/m, exact and still, not quiet in force, "
+                f"{formatting.quantity(row.exact_and_still_drawn_J, 'J')} are drawn, and it settles in "
+                f"{formatting.quantity(row.exact_and_still_settled_s, 's')}, "
+                f"{formatting.quantity(row.exact_and_still_impact_share, 'share')} on impact."
+            )
 
 
 def _kilo(stiffness: float | None, top: float) -> str:
