@@ -404,6 +404,19 @@ def test_the_command_prints_what_it_guessed_of_the_log(
     assert "log.csv: target of the hand: taps at 1.5 Hz" in said
 
 
+@pytest.mark.slow
+@pytest.mark.usefixtures("few_looks")
+def test_the_command_says_where_no_gains_change_anything(
+    tmp_path: Path, trace: ebac.Trace, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(identify, "fit_gains", partial(fit_gains, evaluations=3))
+    trace.to_npz(tmp_path / "log.npz")
+    words = ["identify", "gains", str(tmp_path / "log.npz"), "--tapping", "1.5", "--law"]
+    said = {law: CliRunner().invoke(app, [*words, law]).stdout for law in ("ebac", "tca-damped")}
+    told = {law: "No pair of gains changes anything" in text for law, text in said.items()}
+    assert told == {"ebac": True, "tca-damped": False}
+
+
 def test_the_command_refuses_a_law_without_force_loop(tmp_path: Path, trace: ebac.Trace) -> None:
     trace.to_npz(tmp_path / "log.npz")
     run = CliRunner().invoke(

@@ -33,7 +33,7 @@ def gains(
             rich_help_panel=given.FIT,
             autocompletion=completion.laws,
         ),
-    ] = "ebac",
+    ] = "tca-damped",
     fix: given.Fix = None,
     robust: given.Robust = None,
     scenario: Annotated[
@@ -124,7 +124,7 @@ def gains(
 
     * `ebac demo press`, then `ebac identify gains press.csv --switch 1.0`
 
-    * `ebac identify gains press.csv --switch 1.0 --law tca-damped --out report`
+    * `ebac identify gains press.csv --switch 1.0 --law tca --out report`
 
     * `ebac presets reference > device.toml`, then `ebac identify gains press.csv --switch 1.0 --scenario device.toml`:
     on your device, as described in a file
@@ -225,7 +225,12 @@ def _notes(result: GainsResult, file: Path | None) -> list[str]:
     whose = (
         "the reference device: --scenario FILE takes those of yours" if file is None else str(file)
     )
+    costs = {round(one.cost, 9) for one in result.tried if not one.broken}
+    nothing = [
+        f"No pair of gains changes anything: with the observer {result.name} has no force loop. --law tca-damped has."
+    ]
     return [
+        *(nothing if len(costs) == 1 else []),
         f"{len(result.hands)} hands, {len(result.chosen.presses.goals)} presses, {len(result.tried)} pairs of gains. "
         "Relative to the default gains, geometric mean over the presses: "
         + ", ".join(f"{name} {value:.3f}" for name, value in result.chosen.ratios.items())

@@ -97,7 +97,7 @@ class GainsResult:
 
 def fit_gains(
     loop: LoopModel,
-    law: str = "ebac",
+    law: str = "tca-damped",
     *,
     limits: Limits | None = None,
     vary: float = 0.3,
@@ -120,7 +120,8 @@ def fit_gains(
     loop : LoopModel
         The loop, from `fit_loop`.
     law : str
-        A law with the force loop of eq. (2): `tca`, `tca-damped`, `ebac`.
+        A law with the force loop of eq. (2): `tca`, `tca-damped`. On the observer, which it has here, `ebac` does not
+        use its gains.
     limits : Limits, optional
         Constraints.
     vary : float
