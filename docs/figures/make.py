@@ -97,7 +97,7 @@ def energy() -> Picture:
         for name, trace in traces.items():
             shade = colour("ebac") if name == "ebac" else "#d55e00"
             line(ax, trace["t"], 1e3 * trace["true.energy"], color=shade, label=f"port, {name}")
-        ax.axhline(-10, color="0.35", ls="--", lw=1, label="-e(0)")
+        ax.axhline(-10, color="0.35", ls="--", lw=1, label="minus the reserve e(0), 10 mJ")
         dress(ax, "energy [mJ]")
     kept = traces["ebac"]
     line(

@@ -28,6 +28,8 @@ LAWS = {
     "ebac-printed": "as printed",
     "ebac-printed, K_p = 0": "as printed, K_p = 0",
 }
+#: What the figure calls those that it shows.
+DRAWN = {"ebac": "ebac, the law of this package", "ebac-printed": "EBAC as printed"}
 #: The walls, by name: the reference, the same behind a little free air, and a soft one behind it.
 WALLS = {
     "10 kN/m at the start": Wall(),
@@ -107,7 +109,7 @@ def _why(found: dict[tuple[str, str], Contact], traces: Runs) -> str:
     time, depth = _silent(traces["ebac-printed", walls[2]])
     least = min((found["ebac-printed", name].least_energy_J or 0) for name in walls)
     return (
-        f"The completed law settles within {formatting.quantity(slowest, 's')} and rests within "
+        f"The completed law, `ebac`, settles within {formatting.quantity(slowest, 's')} and rests within "
         f"{formatting.quantity(off, 'm')} of the ideal point at each wall here. "
         "Eq. (8) to (10) as printed are stable and as fast, but rest too deep by "
         f"{deep[0]} and {deep[1]} at 10 kN/m and generate energy ({formatting.quantity(least, 'J')}). "
@@ -124,7 +126,7 @@ def _draw(traces: Runs) -> Picture:
     figure = new_figure(13, 8.4)
     grid = figure.subplots(3, len(WALLS), sharex=True, sharey="row")
     for column, name in enumerate(WALLS):
-        for law, label in list(LAWS.items())[:2]:
+        for law, label in DRAWN.items():
             _lines(grid[:, column], traces[law, name][0.0:1.2], label)
         grid[0, column].set_title(f"wall of {name}", fontsize="medium")
         grid[0, column].axhline(40, color="0.4", lw=1, ls=":", label="target of the hand, 40 mm")
@@ -144,7 +146,7 @@ def _lines(panels: Sequence[Axes], trace: Trace, label: str) -> None:
     from ebac.plot import colour
 
     t, shade = trace["t"], colour(trace.law)
-    panels[0].plot(t, 1e3 * trace["true.x"], color=shade, label=f"EBAC {label}")
+    panels[0].plot(t, 1e3 * trace["true.x"], color=shade, label=label)
     panels[1].plot(t, trace["law.f_d"], color=shade)
     panels[2].plot(t, trace["law.beta"] / 1e3, ".", ms=3, color=shade)
 

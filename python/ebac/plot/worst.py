@@ -8,7 +8,7 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from ebac._util import formatting
-from ebac.plot.marks import for_law
+from ebac.plot.marks import for_law, mark_cut
 from ebac.plot.style import QUANTITIES, Picture, colour, dress, legend, line, new_figure
 
 if TYPE_CHECKING:
@@ -99,12 +99,14 @@ def _depth(ax: Axes, trace: Trace) -> None:
 def _force(ax: Axes, trace: Trace, law: str) -> None:
     t = trace["t"]
     commanded, applied = trace.axis("f_cmd", 0), trace.axis("f_applied", 0)
-    line(ax, t, trace.axis("f_env", 0), color="black", lw=0.6, label="environment, $F_e$")
+    asked = trace.axis("f_env", 0)
+    line(ax, t, asked, color="black", lw=0.6, label="environment, $F_e$")
     line(ax, t, commanded, color=QUANTITIES["f_cmd"], lw=2.2, label="commanded")
     line(ax, t, applied, color=colour(law), lw=1.0, label="applied")
     low, high = float(commanded.min()), float(commanded.max())
     room = 0.15 * max(high - low, 1.0)
     ax.set_ylim(low - room, high + room)  # what is asked may go far beyond
+    mark_cut(ax, float(asked.min()), float(asked.max()), "N")
     dress(ax, "force [N]")
 
 

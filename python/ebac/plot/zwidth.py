@@ -130,7 +130,7 @@ def _title(found: ZWidth, criteria: list[str]) -> str:
     if found.hands:
         energy += f" ({found.random_hands} included)"
     means = {
-        "usable": f"usable: quiet, at most {energy}, half of K shown",
+        "usable": f"usable: quiet, at most {energy}, and at rest at least half of K is rendered",
         "energy": "" if "usable" in criteria else f"at most {energy}",
         "quiet": "quiet: still, with a quiet force",
         "still": "still: no limit cycle",
