@@ -203,6 +203,26 @@ def test_bias_shows_before_and_after(simulated: SimulatedSensor) -> None:
     assert "Standard deviation before: 0.0000 N, 0.00000 N m." in out
 
 
+def test_bias_names_a_force_that_may_be_that_of_a_hand(
+    simulated: SimulatedSensor, tmp_path: Path
+) -> None:
+    code, _, err = run("bias", *at(simulated), "--records", "20")
+    assert code == 0, err
+    assert (
+        "Note: a force of 3.61 N is taken as zero; make sure that nobody touches the handle" in err
+    )
+    host, port = simulated.address
+    file = tmp_path / "sensor.toml"
+    for x, beyond in ((2.9, ""), (2.0, "1.00 N beyond the bias of the configuration")):
+        file.write_text(
+            f"[sensor]\nhost = '{host}'\nport = {port}\ncounts_per_force = 1e5\n"
+            f"counts_per_torque = 2e5\nbias = [{x}, 0, 2, 0, 0.06, 0]\n"
+        )
+        code, _, err = run("bias", "--config", str(file), "--records", "20")
+        assert code == 0, err
+        assert beyond in err if beyond else err == ""
+
+
 @pytest.mark.slow
 @pytest.mark.weekly
 def test_bias_takes_no_load_without_being_told(tmp_path: Path) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from math import hypot
 from typing import Annotated, Any
 
 import typer
@@ -9,6 +10,8 @@ import typer
 from ebac.cli import output
 from ebac.cli.sensor import options
 
+#: Largest force that is taken as zero without a word [N]: the observer falls back where the zero is wrong by as much.
+_SILENT = 0.2
 _AXES = ("force_x", "force_y", "force_z", "torque_x", "torque_y", "torque_z")
 
 
@@ -48,7 +51,7 @@ def bias(
 
     The command prints the line with the mean to put under `[sensor]` in the configuration, so that every run starts
     from the same zero. With `--inside` the sensor's own software bias is set instead. Saturated records and those
-    with an error do not count.
+    with an error do not count. A note says so when the new zero is more than 0.2 N from the one before.
 
     **Examples**
 
@@ -72,6 +75,7 @@ def bias(
         else:
             mean = sensor.bias(records, timeout=which.timeout, **accepted)
         after = sensor.rest(records, timeout=which.timeout)
+    _tell(hypot(*before.mean[:3]), beyond=any(found.bias))
     rows: list[dict[str, Any]] = [
         {
             "what": name,
@@ -107,3 +111,14 @@ def bias(
     else:
         output.say("To take this as zero, put under [sensor] of the configuration:")
         output.indented(f"bias = [{', '.join(f'{value:.6g}' for value in mean)}]")
+
+
+def _tell(force: float, *, beyond: bool) -> None:
+    """Say which force is taken as zero, where it may be that of a hand; `beyond` is a bias in the configuration."""
+    if force > _SILENT:
+        more = " beyond the bias of the configuration" if beyond else ""
+        output.note(
+            f"a force of {force:.2f} N{more} is taken as zero; make sure that nobody touches the handle. Where the "
+            f"zero is wrong by {_SILENT:g} N or more, `ebac` with the observer falls back at contacts right after the "
+            "start of a run"
+        )
