@@ -81,6 +81,18 @@ def test_skipped_ticks_are_counted_in_words(
     assert words in " ".join(capsys.readouterr().out.split())
 
 
+def test_a_run_on_simulated_drives_says_what_of_it_was_real(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    results = import_module("ebac.cli.run.results")
+    known = Configuration.load(EXAMPLE).replace(seconds=1.0)
+    found = results.Result.of_virtual(known, known.simulate(), None, None)
+    results.show(replace(found, virtual=False))
+    shown = " ".join(capsys.readouterr().out.split())
+    assert "on simulated drives on a bus inside this process" in shown
+    assert "were simulated; clock and thread were real." in shown
+
+
 def test_a_run_whose_parameters_changed_has_no_verdict(capsys: pytest.CaptureFixture[str]) -> None:
     results = import_module("ebac.cli.run.results")
     known = Configuration.load(EXAMPLE).replace(seconds=1.0)

@@ -24,9 +24,7 @@ if TYPE_CHECKING:
 
 Simulated = Annotated[
     bool,
-    typer.Option(
-        "--simulated", help="Use simulated drives; clock, threads, bus and network are real."
-    ),
+    typer.Option("--simulated", help="Use simulated drives; clock, threads and network are real."),
 ]
 GiveUp = Annotated[
     float,

@@ -255,7 +255,7 @@ def show(result: Result) -> None:
     show_refused(report.grants)
     if result.simulated:
         output.say(
-            "Drives, device and hand were simulated; clock, thread and bus were real.", style="bold"
+            "Drives, device and hand were simulated; clock and thread were real.", style="bold"
         )
 
 

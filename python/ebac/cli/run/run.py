@@ -30,7 +30,7 @@ def run(
         bool,
         typer.Option(
             "--simulated",
-            help="Use simulated drives, device and hand; clock, thread and bus are real.",
+            help="Use simulated drives, device and hand; clock and thread are real.",
         ),
     ] = False,
     virtual: Annotated[
