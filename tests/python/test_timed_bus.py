@@ -160,7 +160,9 @@ def test_the_command_counts_late_answers(tmp_path: Path) -> None:
     assert "answers came after the loop had stopped waiting" in shown
 
 
-@pytest.mark.parametrize(("share", "verdict"), [(0.7, "good"), (0.5, "fair"), (0.4, "bad")])
+@pytest.mark.parametrize(
+    ("share", "verdict"), [(0.78, "good"), (0.7, "fair"), (0.5, "fair"), (0.4, "bad")]
+)
 def test_the_doctor_compares_both_times(tmp_path: Path, share: float, verdict: str) -> None:
     file = tmp_path / "joystick.toml"
     file.write_text(EXAMPLE.read_text().replace("[bus]", f"[bus]\nanswer_share = {share}", 1))

@@ -13,6 +13,8 @@ if TYPE_CHECKING:
     from ebac.realtime import Finding
     from ebac.realtime.doctor import Verdict
 
+#: Least share of the time the loop waits that the slowest answer leaves.
+_MARGIN = 0.1
 _MARKS = {"good": "[green]good[/]", "fair": "[yellow]fair[/]", "bad": "[bold red]bad[/]"}
 
 
@@ -34,8 +36,8 @@ def doctor(
     """Check this machine for real-time problems.
 
     Prints how to fix each one. Kernel, clock, limits and CAN interfaces are checked; nothing is changed. "fair" means
-    that some ticks will be late, or that a drive whose loop stalls can throw the handle to the end of the workspace,
-    "bad" that a control loop cannot run as requested, with exit code 1.
+    that some ticks will be late, that answers on the bus may be, or that a drive whose loop stalls can throw the handle
+    to the end of the workspace, "bad" that a control loop cannot run as requested, with exit code 1.
 
     **Examples**
 
@@ -80,7 +82,8 @@ def _bus(path: Path) -> Finding:
     load, dt = known.drives.bus_load(), known.timing.dt
     least, most = exchange_times(known)
     waits = known.answer_share * dt
-    verdict: Verdict = "good" if most <= waits else "fair" if least <= waits else "bad"
+    in_time = most <= (1 - _MARGIN) * waits
+    verdict: Verdict = "good" if in_time else "fair" if least <= waits else "bad"
     share = f"{100 * load.share:.0f} % of {load.bitrate / 1000:g} kbit/s"
     return Finding(
         what="the bus, one tick",
@@ -88,8 +91,9 @@ def _bus(path: Path) -> Finding:
         f"of {1e6 * dt:.0f}; load at most {share}",
         verdict=verdict,
         remedy=""
-        if verdict == "good"
-        else "raise bus.answer_share or the bit rate, lengthen timing.dt, or use a second bus",
+        if in_time
+        else f"the slowest answer must leave {100 * _MARGIN:.0f} % of the time the loop waits: raise bus.answer_share "
+        f"({known.answer_share:g} now, at most 0.9) or the bit rate, lengthen timing.dt, or use a second bus",
     )
 
 
