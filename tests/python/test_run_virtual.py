@@ -193,6 +193,19 @@ def test_the_command_offers_the_virtual_clock(capsys: pytest.CaptureFixture[str]
     assert "--virtual instead of --simulated" in text
 
 
+def test_the_test_of_the_signs_names_the_lateness_too(monkeypatch: pytest.MonkeyPatch) -> None:
+    def late(*_: object, **__: object) -> None:
+        Ended(late_trace(ebac.Fault.DRIVE_SILENT)).finish()
+
+    monkeypatch.setattr("ebac.hardware.find_signs", late)
+    done = CliRunner().invoke(app, ["drive", "signs", str(EXAMPLE), "--simulated", "--write"])
+    assert done.exit_code == 1
+    text = " ".join(done.stderr.split())
+    assert "the loop woke up to 12.3 ms late" in text
+    assert "bus.silent = 50 or more" in text
+    assert text.endswith("nothing was written")
+
+
 def edited(tmp_path: Path, old: str, new: str) -> str:
     text = EXAMPLE.read_text(encoding="utf-8")
     assert text.count(old) == 1, old

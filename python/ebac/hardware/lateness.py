@@ -38,6 +38,21 @@ def loop_fault(trace: Trace) -> LoopFault | None:
     return error
 
 
+def explained(fault: LoopFault, instead: str = "") -> str:
+    """Return what a command says of a fault: what happened, how late the loop was, and what to do first.
+
+    Parameters
+    ----------
+    fault : LoopFault
+        The fault.
+    instead : str
+        Another way to run the same, named where the loop was late.
+    """
+    notes: list[str] = getattr(fault, "__notes__", [])
+    text = str(fault).partition("; see")[0]
+    return "; ".join(filter(None, [text, *notes, instead if notes else "", fault.remedy]))
+
+
 def lateness_of(fault: Fault, trace: Trace) -> str:
     """Return how late the loop was, where that may have led to a fault; else nothing."""
     if fault not in BY_TIME or (fault in BY_MOTION and not trace["skipped"].any()):

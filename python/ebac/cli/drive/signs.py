@@ -47,6 +47,7 @@ def signs(
     from ebac.cli.run.any_key import any_key
     from ebac.hardware import Configuration, Signs, find_signs
     from ebac.hardware.axis_positions import axis_name
+    from ebac.hardware.lateness import explained
     from ebac.hardware.toml_table import rewrite
     from ebac.simulation import LoopFault
 
@@ -63,7 +64,7 @@ def signs(
         with telling(), any_key() as key:
             rows = find_signs(known, simulate=simulated, current=current, look=key)
     except LoopFault as error:
-        output.fail(f"{str(error).partition('; see')[0]}; nothing was written", code=output.FAILED)
+        output.fail(f"{explained(error)}; nothing was written", code=output.FAILED)
     except typer.Exit:  # a RuntimeError of its own, of an end that was reported
         raise
     except RuntimeError as error:

@@ -104,6 +104,8 @@ def give(
     fault: LoopFault | None,
 ) -> None:
     """Write and print the result; a fault ends the command."""
+    from ebac.hardware.lateness import explained
+
     files = results.write(result, stem, style)
     if as_json:
         typer.echo(result.document())
@@ -113,12 +115,10 @@ def give(
             output.list_files(stem.parent, files)
     if fault is not None:
         log = result.report.log
-        notes: list[str] = getattr(fault, "__notes__", [])
-        kept = [] if log is None else [f"its rows are in {log}"]
-        other = ["--virtual instead of --simulated runs it on a virtual clock"]
-        hints = [*notes, *(other if notes and result.simulated else []), fault.remedy, *kept]
-        text = str(fault).partition("; see")[0]
-        output.fail("; ".join([text, *hints]), code=output.FAILED)
+        kept = "" if log is None else f"; its rows are in {log}"
+        other = "--virtual instead of --simulated runs it on a virtual clock"
+        text = explained(fault, other if result.simulated else "")
+        output.fail(f"{text}{kept}", code=output.FAILED)
     if result.engine is not None and not result.engine.lasted:
         raise typer.Exit(output.FAILED)  # its own sentence stands above
 
