@@ -15,7 +15,8 @@ from typer.testing import CliRunner
 
 from ebac import datasets
 from ebac.cli import app
-from ebac.cli.wrong_input import IN_FILES, OF_OTHERS
+from ebac.cli.wrong_input import IN_CONFIGURATION, IN_FILES, OF_OTHERS
+from ebac.hardware import Configuration
 
 #: What a command needs beside the option that is wrong.
 NEEDS = {
@@ -147,6 +148,15 @@ def test_a_fact_that_only_a_file_gives_is_named_by_its_key(option: str) -> None:
     section = preset.partition(f"[{part}")[2].partition("\n[")[0]
     assert section
     assert not key or f"\n{key.split()[0]} = " in section
+
+
+@pytest.mark.parametrize("option", IN_CONFIGURATION)
+def test_an_option_that_is_a_key_of_the_configuration_is_named_by_it(option: str) -> None:
+    done = CliRunner().invoke(app, ["run", "joystick.toml", option])
+    assert done.exit_code == 2
+    assert f"{IN_CONFIGURATION[option]} of the configuration" in " ".join(done.stderr.split())
+    setting, _, table = IN_CONFIGURATION[option].partition(" in ")
+    assert Configuration.from_toml(f"{table}\n{setting}\n[sensor]\nport = 49152\n").observer
 
 
 def wrong(name: str, kind: Any) -> Iterator[tuple[str, str, str]]:

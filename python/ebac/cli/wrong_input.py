@@ -29,6 +29,12 @@ IN_FILES = {
     "--device-encoder": "[device.encoder]",
 }
 
+#: Options that a command with a configuration lacks, and the keys of that which set the same.
+IN_CONFIGURATION = {
+    "--observer-learns": "learn_scale = true in [observer]",
+    "--observer-every-law": "every_law = true in [observer]",
+}
+
 #: Options by words that people use for them, which look like others.
 MEANT = {"--device-friction": ("--device-coulomb", "--device-friction-compensation")}
 
@@ -155,6 +161,9 @@ def _unknown_option(wrong: str, command: Any) -> str:
             f"{wrong}: there is no such option here, {IN_FILES[wrong]} of the file of --scenario sets it; "
             "`ebac presets reference > FILE` writes one"
         )
+    if wrong in IN_CONFIGURATION and any(p.name == "configuration" for p in shown):
+        key = IN_CONFIGURATION[wrong]
+        return f"{wrong}: there is no such option here, {key} of the configuration sets it"
     if wrong in OF_OTHERS:
         have = _or([f"`ebac {name}`" for name in OF_OTHERS[wrong]], "and")
         return f"{wrong}: there is no such option here; {have} have it"
