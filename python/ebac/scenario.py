@@ -22,7 +22,14 @@ from ebac._core import (
     Wall,
     _World,
 )
-from ebac._util.arguments import keywords_only, refuse_unknown, require, require_file, shown
+from ebac._util.arguments import (
+    did_you_mean,
+    keywords_only,
+    refuse_unknown,
+    require,
+    require_file,
+    shown,
+)
 from ebac._util.copying import refuse_uncopyable
 from ebac._util.misplaced import Misplaced, misplaced
 from ebac._util.plural import plural
@@ -149,6 +156,7 @@ class Scenario:
         if isinstance(self.observer, str) and self.observer not in _NAMED_OBSERVERS:
             raise ValueError(
                 f"Scenario.observer = {self.observer!r}: must be True, False, {_NAMES}, or an Observer"
+                f"{did_you_mean(self.observer, _NAMED_OBSERVERS)}"
             )
         if not isinstance(self.observer, bool) and not self.device.sensor.fitted:
             raise ValueError(

@@ -180,6 +180,17 @@ def test_the_observer_that_learns_the_scale_has_a_name_a_field_and_an_option() -
     assert "--observer-every-law and --observer-learns" in both.output
 
 
+@pytest.mark.parametrize(
+    ("near", "name"),
+    [("learn-scale", "learns-scale"), ("learns_scale", "learns-scale"), ("every_law", "every-law")],
+)
+def test_an_observer_called_nearly_right_is_refused_with_the_right_name(
+    near: str, name: str
+) -> None:
+    with pytest.raises(ValueError, match=rf"an Observer, did you mean '{name}'$"):
+        ebac.Scenario(observer=near)  # type: ignore[arg-type]
+
+
 def test_a_tuned_law_on_the_observer_keeps_that_it_learns() -> None:
     asked = OBSERVED.replace(observer="learns-scale", seconds=0.5)
     both = ebac.Observer.of(NOISY, OBSERVED.timing).replace(learn_scale=True, every_law=True)
