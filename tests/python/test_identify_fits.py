@@ -210,7 +210,8 @@ def test_a_cut_log_is_read_and_said_to_be_cut(trace: ebac.Trace, tmp_path: Path)
     (tmp_path / "cut.mcap").write_bytes(data[: len(data) * 2 // 3])
     r = load(tmp_path / "cut.mcap")
     assert 0.3 * len(trace) < len(r.t) < len(trace)
-    assert any("not whole" in text for text in r.remarks)
+    assert any("not whole: its end is missing" in text for text in r.remarks)
+    assert not any("Condition(" in text for text in r.remarks)
 
 
 def test_an_axis_that_does_not_exist_is_refused(trace: ebac.Trace, tmp_path: Path) -> None:

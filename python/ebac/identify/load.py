@@ -173,7 +173,9 @@ def _trace(path: Path) -> tuple[Trace | None, str, list[str]]:
         log = read(path)
         if len(log.trace) == 0:
             raise ValueError(f"{path.name}: the log has no rows; ebac log info shows its contents")
-        remarks = [] if log.condition.complete else [f"the log is not whole: {log.condition}"]
+        cut = "the log is not whole: its end is missing, as that of a run that was cut short"
+        remarks = [] if log.condition.complete else [cut]
+        remarks += filter(None, [log.condition.damage])
         remarks += [f"{gap.rows} rows are missing after t = {gap.t:.4g} s" for gap in log.gaps]
         return log.trace, log.trace.origin, remarks
     if path.suffix != ".npz":
