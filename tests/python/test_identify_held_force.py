@@ -120,3 +120,16 @@ def test_a_loop_says_which_tick_it_took(pushed: Recording, tmp_path: Path) -> No
     assert pushed.force is not None
     log = identify.load(written(pushed, held(pushed.force, 10, 3), tmp_path))
     assert "timing: a tick of 10 ms, the step of the log" in identify.fit_loop(log).remarks
+
+
+@pytest.mark.parametrize(
+    ("empty", "remark"),
+    [(0, "force: is not finite (inf), perhaps of a saturated sensor, in 1 of 4000 rows"),
+     (2, "force: is empty in 2 and is not finite (inf), perhaps of a saturated sensor, in 1 of 4000 rows")],
+)  # fmt: skip
+def test_a_force_that_is_infinite_is_not_called_empty(empty: int, remark: str) -> None:
+    force = np.sin(np.arange(4000.0))
+    force[7], force[8 : 8 + empty] = np.inf, np.nan
+    remarks: list[str] = []
+    without_held({"force": force}, remarks)
+    assert remarks == [f"{remark}; they are left out"]

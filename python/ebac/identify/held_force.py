@@ -63,9 +63,7 @@ def without_held(signals: Columns, remarks: list[str]) -> Columns:
     read = np.flatnonzero(np.isfinite(force))
     if LEAST_ROWS <= read.size < force.size:
         rows, held = read, int(np.median(np.diff(read)))
-        remarks.append(
-            f"force: is empty in {force.size - read.size} of {force.size} rows; they are left out"
-        )
+        remarks.append(f"force: {_no_reading(force)}; they are left out")
     else:
         rows, held = new_readings(force)
         if held == 1:
@@ -80,3 +78,11 @@ def without_held(signals: Columns, remarks: list[str]) -> Columns:
         since = np.concatenate([[max(rows[0] - held, -1)], rows[:-1]])
         out["motor"] = (total[rows + 1] - total[since + 1]) / (rows - since)
     return out
+
+
+def _no_reading(force: NDArray[np.float64]) -> str:
+    """Return in how many rows there is no force, and why: it is empty, or not finite."""
+    saturated = "is not finite (inf), perhaps of a saturated sensor,"
+    counts = {"is empty": np.isnan(force).sum(), saturated: np.isinf(force).sum()}
+    kinds = " and ".join(f"{what} in {n}" for what, n in counts.items() if n)
+    return f"{kinds} of {force.size} rows"
