@@ -274,6 +274,8 @@ def test_units_are_read_or_guessed_and_said(
             "x y\n1 2\n",
             "its columns have spaces between them; put commas, semicolons or tabs there",
         ),
+        ("To do\nbuy a cable\nat 5\ngo home\nor to the sea\n", "is no table of numbers"),
+        ("To do\nbuy cable\ngo home\n", "is no table of numbers"),
     ],
 )
 def test_a_bad_file_is_told_by_name_and_place(tmp_path: Path, text: str, message: str) -> None:

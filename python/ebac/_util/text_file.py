@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections import Counter
+from itertools import chain
 from pathlib import Path
 from typing import TypeVar
 
@@ -68,13 +70,24 @@ def delimited(lines: list[str]) -> tuple[str, list[str]]:
     Raises
     ------
     ValueError
-        When there are spaces between the columns.
+        When there are spaces between the columns, or it is no table at all.
     """
     mark = max(",;\t", key=lines[0].count)
     if mark not in lines[0] and len(lines) > 1 and len(lines[1].split()) > 1:
+        if not _is_table([line.split() for line in lines[1:]]):
+            raise ValueError(
+                "is no table of numbers; it needs a heading and rows of as many numbers, with commas between them"
+            )
         raise ValueError(
             "its columns have spaces between them; put commas, semicolons or tabs there"
         )
     if mark != ",":
         lines = [lines[0], *(line.replace(",", ".") for line in lines[1:])]
     return mark, lines
+
+
+def _is_table(rows: list[list[str]]) -> bool:
+    """Return whether most rows have equally many words, and any word begins as a number does."""
+    (_, usual), *_ = Counter(map(len, rows)).most_common(1)
+    numbers = any(word.lstrip("+-.,")[:1].isdigit() for word in chain.from_iterable(rows))
+    return 2 * usual > len(rows) and numbers
