@@ -184,7 +184,9 @@ def test_an_order_that_cannot_be_is_refused_before_anything_moves(text: str, wor
         app, ["run", str(EXAMPLE), "--simulated", "--no-files", "--at", text]
     )
     assert result.exit_code == 2, result.output
-    assert words in " ".join(result.output.split()), result.output
+    said = " ".join(result.output.split())
+    assert said.startswith("Error: --at"), said
+    assert words in said
 
 
 def test_on_hardware_no_target_is_taken() -> None:

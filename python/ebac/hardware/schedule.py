@@ -59,13 +59,13 @@ class Order:
             match = _ONE.fullmatch(word)
             if match is None:
                 raise ValueError(
-                    f"{word!r}: must be law.NAME=NUMBER, environment.NAME=NUMBER or hand.target=NUMBER"
+                    f"--at {word!r}: must be law.NAME=NUMBER, environment.NAME=NUMBER or hand.target=NUMBER"
                 )
             parts[match["part"]][match["name"]] = _number(match["value"], word)
         at = _number(time, text) if words else -1.0
         if not at >= 0:
             raise ValueError(
-                f"{text!r}: must be a time of 0 s or more and what changes then, like '3 environment.stiffness=2e4'"
+                f"--at {text!r}: must be a time of 0 s or more, then what changes, like '3 environment.stiffness=2e4'"
             )
         return cls(
             at=float(at),
@@ -101,7 +101,7 @@ def _number(text: str, whole: str) -> float | int:
     try:
         return float(text)
     except ValueError:
-        raise ValueError(f"{whole!r}: {text!r} is no number") from None
+        raise ValueError(f"--at {whole!r}: {text!r} is no number") from None
 
 
 def _target(found: dict[str, Any]) -> tuple[float | None, ...]:
@@ -110,7 +110,7 @@ def _target(found: dict[str, Any]) -> tuple[float | None, ...]:
     for name, value in found.items():
         match = _TARGET.fullmatch(name)
         if match is None:
-            raise ValueError(unknown(f"hand.{name}", name, ["target", "target_0", "target_1"]))
+            raise ValueError(unknown(f"--at hand.{name}", name, ["target", "target_0", "target_1"]))
         by_axis[int(match["axis"] or 0)] = value
     return tuple(by_axis.get(axis) for axis in range(1 + max(by_axis, default=-1)))
 
@@ -151,7 +151,7 @@ class Schedule:
         for order in self.orders:
             if order.at >= known.seconds:
                 raise ValueError(
-                    f"a change at {order.at:g} s: the run ends after {known.seconds:g} s; let it last longer"
+                    f"--at {order.at:g} s: the run ends after {known.seconds:g} s; let it last longer"
                 )
             with order.naming("law"):
                 if order.law:
