@@ -221,6 +221,15 @@ def test_the_command_prints_rows_in_si_units() -> None:
     assert (told["hands"], len(told["walls"])) == (3, 4)
 
 
+def test_the_command_says_of_one_wall_that_it_is_one() -> None:
+    text = " ".join(command(*FEW[:-1], "1000", "--law", "direct").split())
+    assert "The one wall tried, 1 kN/m, holds where it is named; none: it fails." in text
+    text = " ".join(command(*FEW, "--law", "direct").split())
+    assert (
+        "all softer ones of the 2 walls tried hold, too; none: the softest, 1 kN/m, fails." in text
+    )
+
+
 def test_the_command_has_the_delay_and_wall_damping_of_its_options(tmp_path: Path) -> None:
     file, out = tmp_path / "mine.toml", tmp_path / "out"
     file.write_text("[timing]\ndelay = 2\n[device.mechanics]\ndamping = 0.6\n", encoding="utf-8")

@@ -165,11 +165,9 @@ def _show(found: Stiffest) -> None:
     _show_again(found)
     _show_exact_only(found)
     output.say(
-        f"Up to which: all softer ones of the {output.plural(len(found.stiffnesses), 'wall')} tried hold, too; none: "
-        f"the softest, {1e-3 * found.stiffnesses[0]:g} kN/m, fails. Drawn: most energy that any hand draws in any "
-        "window at that wall. Settled: median of the hands that settle there. On impact: the force where a hand goes "
-        "deepest, over that of the wall there, in the median; below 50 % a wall is soft on impact, however stiff it "
-        "is at rest."
+        f"{_up_to_which(found)} Drawn: most energy that any hand draws in any window at that wall. Settled: median of "
+        "the hands that settle there. On impact: the force where a hand goes deepest, over that of the wall there, in "
+        "the median; below 50 % a wall is soft on impact, however stiff it is at rest."
     )
     if "good_in_time" not in found.counts:
         output.say(
@@ -178,6 +176,14 @@ def _show(found: Stiffest) -> None:
     output.say("Simulated, not measured. Stiffness and hand vary; everything else:", style="bold")
     device, _, *others = formatting.describe(found.base).split("; ")
     output.indented("\n".join([device, *others[-2:]]))
+
+
+def _up_to_which(found: Stiffest) -> str:
+    """Return what a wall in the table and "none" mean."""
+    softest, walls = f"{1e-3 * found.stiffnesses[0]:g} kN/m", len(found.stiffnesses)
+    if walls == 1:
+        return f"The one wall tried, {softest}, holds where it is named; none: it fails."
+    return f"Up to which: all softer ones of the {walls} walls tried hold, too; none: the softest, {softest}, fails."
 
 
 def _show_again(found: Stiffest) -> None:
