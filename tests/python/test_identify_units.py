@@ -5,8 +5,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from typer.testing import CliRunner
 
 from ebac import identify
+from ebac.cli import app
 from ebac.datasets import write
 from ebac.identify import Recording, motor_check
 
@@ -51,6 +53,16 @@ def test_the_unit_that_the_message_names_is_the_cure(tmp_path: Path, arm: Record
     wrong = identify.load(log)
     assert any("--unit force=kgf" in text for text in motor_check.doubts([wrong]))
     assert motor_check.doubts([identify.load(log, units={"force": "kgf"})]) == ()
+
+
+def test_the_command_names_the_unit_before_the_table(tmp_path: Path, arm: Recording) -> None:
+    assert arm.force is not None
+    np.savez(tmp_path / "kgf.npz", t=arm.t, x=arm.x, force=arm.force / 9.80665, motor=arm.motor)
+    done = CliRunner().invoke(app, ["identify", "arm", str(tmp_path / "kgf.npz")])
+    assert done.exit_code == 0, done.output
+    before, _, after = done.stdout.partition("95 % interval")
+    assert "--unit force=kgf" in " ".join(before.split())
+    assert "kgf" not in after.replace("kgf.npz (fitted)", "")
 
 
 @pytest.mark.parametrize("force", ["Kraft", "Kraft [N]", "Fz [N]", "Fy"])

@@ -48,10 +48,15 @@ def _fit(p: Prediction) -> str:
 def show(
     result: ArmResult, profiles: Any, predictions: Any, opinions: Any, remarks: dict[str, list[str]]
 ) -> None:
-    """Print the table and what is to be said about it."""
+    """Print the table and what is to be said about it; first a force that seems to be in another unit."""
+    from ebac.identify.motor_check import doubts
+
+    first = [text for text in doubts(result.recordings) if text in result.misses]
     for name, lines in remarks.items():
         for text in lines:
             output.say(f"{name}: {text}", style="dim")
+    for text in first:
+        output.say(text, style="bold red")
     grid = output.table(["", "estimate", "95 % interval", "profile", "unit", ""], numbers=(1, 2, 3))
     for e in result.shown:
         scale, unit = (1e3, "mm") if e.unit == "m" else (1.0, e.unit)
@@ -84,7 +89,8 @@ def show(
     for text in result.notes:
         output.say(text)
     for text in careful(result):
-        output.say(text, style="bold red")
+        if text not in first:
+            output.say(text, style="bold red")
 
 
 def write(
