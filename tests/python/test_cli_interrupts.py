@@ -10,10 +10,12 @@ from importlib import import_module
 from pathlib import Path
 
 import pytest
+import typer
 from typer.testing import CliRunner
 
 from ebac import datasets
 from ebac.cli import app
+from ebac.cli.interrupts import interruptible
 
 pytestmark = pytest.mark.skipif(not Path("/proc/self/stat").exists(), reason="needs /proc")
 
@@ -60,10 +62,12 @@ def busy(process: subprocess.Popen[str]) -> float:
     return ticks / os.sysconf("SC_CLK_TCK")
 
 
-def interrupted(words: str, folder: Path, kept: str = "") -> tuple[int, str, float]:
+def interrupted(
+    words: str, folder: Path, kept: str = "", *, terminate: bool = False
+) -> tuple[int, str, float]:
     """Return exit code, what it said and how long it took [s], of a command stopped at its work.
 
-    With `kept`, it is stopped as soon as a file matches that pattern.
+    With `kept`, it is stopped as soon as a file matches that pattern; with `terminate` by SIGTERM, as `kill` sends it.
     """
     process = start(words, folder)
     try:
@@ -74,7 +78,10 @@ def interrupted(words: str, folder: Path, kept: str = "") -> tuple[int, str, flo
             time.sleep(0.05)
         assert process.poll() is None, process.communicate()
         asked = time.monotonic()
-        os.killpg(process.pid, signal.SIGINT)  # as a terminal does: the command and its workers
+        if terminate:
+            process.terminate()
+        else:
+            os.killpg(process.pid, signal.SIGINT)  # as a terminal does: the command and its workers
         out, err = process.communicate(timeout=60)
         return process.returncode, " ".join((out + err).split()), time.monotonic() - asked
     finally:
@@ -98,6 +105,37 @@ def test_ctrl_c_says_what_is_kept_and_how_to_go_on(words: str, tmp_path: Path) -
     assert "Ctrl-C" in said
     assert LONG[words] in said
     assert seconds < 20
+
+
+@pytest.mark.parametrize(
+    "words",
+    ["study --seconds 600", "tune tca --evaluations 100000",
+     pytest.param("identify check arm --logs 5000 --workers 2", marks=pytest.mark.weekly)],
+)  # fmt: skip
+@pytest.mark.slow
+def test_sigterm_is_taken_as_ctrl_c(words: str, tmp_path: Path) -> None:
+    kept = "ebac-study/sweep*/sweep.json" if words.startswith("study") else ""
+    code, said, seconds = interrupted(words, tmp_path, kept=kept, terminate=True)
+    assert code == 143, said
+    assert "Traceback" not in said
+    assert "Stopped by SIGTERM" in said
+    assert LONG[words] in said
+    assert seconds < 20
+
+
+def test_a_command_that_sigterm_stops_has_its_exit_code(capsys: pytest.CaptureFixture[str]) -> None:
+    before = signal.getsignal(signal.SIGTERM)
+
+    def command() -> None:
+        with interruptible():
+            assert signal.getsignal(signal.SIGTERM) is not before, "it would end the tests"
+            signal.raise_signal(signal.SIGTERM)
+
+    with pytest.raises(typer.Exit) as stopped:
+        command()
+    assert stopped.value.exit_code == 143
+    assert "Stopped by SIGTERM; nothing was written" in " ".join(capsys.readouterr().err.split())
+    assert signal.getsignal(signal.SIGTERM) is before
 
 
 @pytest.mark.slow

@@ -153,7 +153,7 @@ def telling() -> Iterator[None]:
             notes = getattr(error, "__notes__", [])
             if not notes:
                 raise
-            output.fail(". ".join(notes), code=interrupts.INTERRUPTED)
+            output.fail(". ".join(notes), code=interrupts.exit_code())
 
 
 @contextmanager
