@@ -138,7 +138,11 @@ def _title(found: ZWidth, criteria: list[str]) -> str:
     lines = [
         f"Z-width, simulated: {parts[0]}; {parts[1]}; {1e-3 / found.base.timing.dt:g} kHz",
         "; ".join(
-            ["hardest wall K by wall damping B", *filter(None, (means[c] for c in criteria))]
+            [
+                "hardest wall K by wall damping B",
+                *filter(None, (means[c] for c in criteria)),
+                "of borders that coincide, drawn one below the other, the uppermost is true",
+            ]
         ),
     ]
     return "\n".join(lines)
