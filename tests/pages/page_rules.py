@@ -64,6 +64,11 @@ RULES = (
     Rule(r"^ebac drive restore", NEVER, "needs the backup of a device"),
     Rule(r"192\.168\.", NEVER, "needs a force sensor"),
     Rule(r"\bmy-[a-z]+\.toml", NEVER, "needs a file of the reader's own"),
+    Rule(
+        r"\bmine\.py:|\bmy_laws:",
+        NEVER,
+        "needs a law of the reader's own; test_cli_own_law.py has one",
+    ),
     Rule(r"^ebac run .*--law tca\b", NEVER, "shakes; a loaded machine or a limit may end it"),
     # What runs until Ctrl-C: the steps that follow meet it.
     Rule(r"^ebac (drive|sensor) simulate", BESIDE, "runs until Ctrl-C"),

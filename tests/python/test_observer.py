@@ -146,6 +146,59 @@ def test_no_scale_is_learned_in_free_motion() -> None:
     assert np.array_equal(runs[0]["est.x_act"], runs[1]["est.x_act"])
 
 
+@pytest.mark.parametrize(("mass", "damping", "dt"), [(0.05, 100.0, 2e-3), (0.05, 150.0, 1e-3)])
+def test_a_device_that_its_damping_stops_within_a_tick_has_a_finite_estimate(
+    mass: float, damping: float, dt: float
+) -> None:
+    """The estimate of its velocity grew without end, to NaN after 1.3 s."""
+    damped = ebac.Device(
+        motor=ebac.Motor(rotor_inertia=0.0),
+        mechanics=ebac.Mechanics(handle_mass=mass, damping=damping),
+        sensor=NOISY.sensor,
+    )
+    run = ebac.Scenario(device=damped, timing=ebac.Timing(dt=dt, delay=1), seconds=4.0)
+    trace = ebac.simulate(run, "ebac")
+    assert all(np.isfinite(trace[name]).all() for name in ("est.x", "est.v", "work", "f_cmd"))
+
+
+def learned(scenario: ebac.Scenario) -> float:
+    """Return how far the disturbance drifts from that of an observer that learns nothing [N]."""
+    runs = [
+        ebac.simulate(scenario.replace(observer=observer), "ebac")["est.disturbance"][-1000:]
+        for observer in (True, "learns-scale")
+    ]
+    return float(np.abs(runs[1].mean(axis=0) - runs[0].mean(axis=0)).max())
+
+
+def test_no_scale_is_learned_from_a_motor_that_carries_the_weight() -> None:
+    """Its force is there in free motion, too: 0.1 N of its 4.9 N were forgotten in these 60 s."""
+    weighty = ebac.Device(
+        mechanics=ebac.Mechanics(handle_mass=0.5, gravity=9.81),
+        sensor=NOISY.sensor,
+        compensation=ebac.Compensation(gravity_mass=0.5),
+    )
+    swings = ebac.Hand(path=[ebac.Sine(centre=-0.03, amplitude=0.02, frequency=0.7)])
+    free = ebac.Scenario(device=weighty, hand=swings, environment=ebac.Free(), seconds=60.0)
+    assert learned(free) < 0.02
+
+
+@pytest.mark.parametrize("angle", [20, 45])
+def test_no_scale_is_learned_from_strokes_along_an_oblique_wall(angle: int) -> None:
+    """The force on an axis does not change with the way along it: a wall of 10 kN/m was lost in the end."""
+    across = np.array([np.cos(np.radians(angle)), np.sin(np.radians(angle))])
+    t = np.arange(0.0, 60.0, 0.01)
+    strokes = 0.015 * np.sin(2 * np.pi * 0.7 * t)[:, None] * np.array([-across[1], across[0]])
+    pressed = (0.016 * np.minimum(1.0, t / 3))[:, None] * across
+    path = [ebac.Recorded(t=t, x=one) for one in (pressed + strokes).T]
+    stroked = ebac.Scenario(
+        device=TWO,
+        hand=ebac.Hand(mass=0.3, damping=6.0, stiffness=500.0, path=path),
+        environment=ebac.Wall(stiffness=10e3, angle=np.radians(angle)),
+        seconds=60.0,
+    )
+    assert learned(stroked) < 0.02
+
+
 def test_no_scale_is_learned_from_a_world_that_moves() -> None:
     """What would be learned has the wrong sign: the estimate was off by a count, and this hand fell back."""
     swings = ebac.worlds.Swing(amplitude_x=5e-3, frequency=1.0)

@@ -9,6 +9,7 @@ namespace ebac {
 void AxisObserver::set_tick(double dt) EBAC_RT {
   dt_ = dt;
   per_dt_ = 1 / dt;
+  damping_ = std::min(params_.damping, mass_ / dt);  // more would stop the estimate beyond rest
   per_noise_ = 1 / params_.force_noise;
   motor_.set_tick(params_.force_lag + records_.mean_age(), dt);
   const double w = std::sqrt(std::sqrt(12.0) * params_.force_noise / (mass_ * params_.count));

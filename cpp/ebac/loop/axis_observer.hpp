@@ -87,7 +87,10 @@ class AxisObserver {
     per_mass_ = 1 / mass_;
   }
 
-  /// Whether the strength of the motor is learned: not while the world moves.
+  /// Whether the motor pushes, as on a world or to carry a weight.
+  bool pushes() const EBAC_RT { return strength_.pushes(); }
+
+  /// Whether the strength of the motor is learned now.
   void set_learns(bool learns) EBAC_RT { learns_ = learns; }
 
   /// The part of D that is known: the weight of the device along this axis [N].
@@ -112,7 +115,7 @@ class AxisObserver {
     before_last_ = measured_;
     measured_ = measured;
     follow_hand(measured);
-    const double a = slowed(force - params_.damping * u_ - motor, u_, dt) * per_mass_;
+    const double a = slowed(force - damping_ * u_ - motor, u_, dt) * per_mass_;
     const double before = x_;
     x_ += (u_ + (0.5 * dt + motor_.sensor_lag()) * a) * dt;
     u_ += a * dt;
@@ -125,7 +128,10 @@ class AxisObserver {
   }
 
   /// The command of the last tick, as force at the handle, joins those in flight.
-  void give(double force) EBAC_RT { in_flight_.push(strength_.of(force)); }
+  void give(double force) EBAC_RT {
+    if (params_.learn_scale) strength_.give(force);
+    in_flight_.push(strength_.of(force));
+  }
 
   /// Where the device is when a command given now acts, in the middle of its interval: over every
   /// command in flight, half a tick and the current lag, the hand's force changing as it does.
@@ -136,7 +142,7 @@ class AxisObserver {
     double ahead = params_.force_lag;
     const auto advance = [&](double force, double time) EBAC_RT {
       const double grown = trend_ * (ahead + 0.5 * time);
-      const double a = slowed(hand + grown - params_.damping * v - force, v, time) * per_mass_;
+      const double a = slowed(hand + grown - damping_ * v - force, v, time) * per_mass_;
       x += (v + 0.5 * a * time) * time;
       v += a * time;
       ahead += time;
@@ -183,7 +189,7 @@ class AxisObserver {
   static constexpr double kPatience = 3.5e-3;  // s, half a period of a cable's resonance of 140 Hz
 
   double acceleration() const EBAC_RT {
-    const double pull = measured_ + disturbance_ - params_.damping * u_ - motor_.shown();
+    const double pull = measured_ + disturbance_ - damping_ * u_ - motor_.shown();
     return slowed(pull, u_, dt_) * per_mass_;
   }
 
@@ -229,7 +235,7 @@ class AxisObserver {
     const double count = params_.count;
     const double off = reading - x_;
     const double within = std::clamp(off, -count, count);
-    if (learns_ && !old_) strength_.learn(within, v_, motor_.shown(), dt_);
+    if (learns_ && !old_) strength_.learn(within, v_, dt_);
     const double noisy = std::clamp(2.5 * rough_ - 0.5, 0.0, 1.0);
     contradicted_ += ((std::abs(off) > 1.5 * count ? 1.0 : 0.0) - contradicted_) * forget_;
     moving_ = std::max(std::min(1.0, std::abs(u_) * (1 / kMoving)), moving_ * resting_);
@@ -271,8 +277,9 @@ class AxisObserver {
 
   ObserverParams params_;
   ForceHistory records_;
-  double mass_;      // kg
-  double per_mass_;  // 1/kg
+  double mass_;         // kg
+  double per_mass_;     // 1/kg
+  double damping_ = 0;  // N s/m
   MotorForce motor_;
   MotorStrength strength_;
   CommandsInFlight in_flight_;

@@ -14,7 +14,9 @@ namespace ebac {
 ///
 ///   s' = -rate (off + lead) v
 ///
-/// so that the estimate leads by up to half a count in the mean. Without a force, nothing is learned.
+/// so that the estimate leads by up to half a count in the mean. It is learned only while the force grows with the
+/// way, as on a stiff wall: where a hand strokes a surface, or moves freely with its weight carried, the force is there
+/// and says nothing of the way, and the lead alone would act.
 class MotorStrength {
  public:
   /// `count` [m], of the encoder.
@@ -23,10 +25,22 @@ class MotorStrength {
   /// The force [N] that `command` makes, in the units of the sensor.
   double of(double command) const EBAC_RT { return value_ * command; }
 
-  /// Takes how far a reading is `off` the estimate [m], a count at most, at the velocity `v` [m/s] and the `force` of
-  /// the motor [N]; `dt` [s] since the last one.
-  void learn(double off, double v, double force, double dt) EBAC_RT {
-    if (std::abs(force) < kTouch) return;
+  /// Takes the command [N] that is given in a tick.
+  void give(double command) EBAC_RT {
+    change_ = command - command_;
+    command_ = command;
+  }
+
+  /// Whether there is a command that something can be learned from.
+  bool pushes() const EBAC_RT { return std::abs(command_) >= kTouch; }
+
+  /// Takes how far a reading is `off` the estimate [m], a count at most, at the velocity `v` [m/s], `dt` [s] after the
+  /// last one.
+  void learn(double off, double v, double dt) EBAC_RT {
+    const double share = dt / (kMemory + dt);
+    grown_ += (change_ - grown_) * share;
+    way_ += (v * dt - way_) * share;
+    if (!pushes() || grown_ * way_ < kStiff * way_ * way_) return;
     const double swing = std::clamp(v, -kSwing, kSwing);
     value_ -= kRate * (off + lead_ * swing) * swing * dt;
     value_ = std::clamp(value_, 1 - kMost, 1 + kMost);
@@ -34,13 +48,20 @@ class MotorStrength {
 
  private:
   static constexpr double kTouch = 0.5;  // N, of the motor, from here on the device touches a world
-  static constexpr double kSwing = 3e-3;  // m/s, faster counts as this
-  static constexpr double kLead = 0.5;    // counts that the estimate shall lead by at that velocity
-  static constexpr double kRate = 1e4;    // 1/m^2, slow enough to change little within a swing
-  static constexpr double kMost = 0.1;    // learned at most
+  static constexpr double kStiff =
+      3e3;  // N/m, a force that grows by less with the way says nothing
+  static constexpr double kMemory = 0.02;  // s, over which way and growth are averaged
+  static constexpr double kSwing = 3e-3;   // m/s, faster counts as this
+  static constexpr double kLead = 0.5;  // counts that the estimate shall lead by at that velocity
+  static constexpr double kRate = 1e4;  // 1/m^2, slow enough to change little within a swing
+  static constexpr double kMost = 0.1;  // learned at most
 
   double lead_;  // s, that the estimate shall lead by
   double value_ = 1;
+  double command_ = 0;  // N
+  double change_ = 0;   // N, of the command in the last tick
+  double grown_ = 0;    // N, in a tick, averaged
+  double way_ = 0;      // m, in a tick, averaged
 };
 
 }  // namespace ebac

@@ -24,11 +24,13 @@ StateObserver::StateObserver(const DeviceModel& device, const Observing& observi
 }
 
 /// Only a world that stands still says what is learned of the scale: of one that moves, the force does not change with
-/// the way of the device.
+/// the way of the device. And only a force along one axis: along an oblique wall an axis moves with the strokes of the
+/// hand, and its force with what the hand does across them.
 void StateObserver::teach(std::span<const Axis> axes) EBAC_RT {
   bool stands = true;
   for (const Axis& axis : axes) stands = stands && axis.port.world_v == 0;
-  for (AxisObserver& observer : observer_) observer.set_learns(stands);
+  const auto pushing = std::ranges::count_if(observer_, &AxisObserver::pushes);
+  for (AxisObserver& observer : observer_) observer.set_learns(stands && pushing == 1);
 }
 
 /// The mass of an axis over that of the first in the middle. The pose changes the handle's part of it.
