@@ -10,7 +10,7 @@ import pytest
 from typer.testing import CliRunner
 
 import ebac
-from ebac._util import formatting
+from ebac._util import descriptions, formatting
 from ebac.cli import app, doubtful_device, doubtful_sensor
 from ebac.sensor import SensorConfig
 
@@ -100,8 +100,8 @@ def test_numbers_are_shown_with_their_unit(value: float | None, unit: str, text:
 
 def test_the_description_of_a_device_has_its_friction() -> None:
     device = ebac.Device(mechanics=ebac.Mechanics(coulomb=0.1))
-    assert "friction 0.1 N" in formatting.describe(ebac.Scenario(device=device))
-    assert "friction" not in formatting.describe(ebac.Scenario())
+    assert "friction 0.1 N" in descriptions.describe(ebac.Scenario(device=device))
+    assert "friction" not in descriptions.describe(ebac.Scenario())
 
 
 @pytest.mark.parametrize(
@@ -118,18 +118,18 @@ def test_the_description_of_a_device_has_its_friction() -> None:
 def test_a_device_is_described_by_all_that_is_not_as_in_the_reference(
     part: dict[str, Any], said: str
 ) -> None:
-    described = formatting.described_device(ebac.Device(**part))
+    described = descriptions.described_device(ebac.Device(**part))
     assert described.startswith("a device (0.25 kg, 2 N s/m, ")
     assert described.endswith(said)
 
 
 def test_a_device_by_name_is_described_by_its_name() -> None:
-    assert formatting.described_device(ebac.Device()).count(",") == 2
+    assert descriptions.described_device(ebac.Device()).count(",") == 2
 
 
 def test_a_scenario_is_told_in_one_line() -> None:
     hand = ebac.Hand(path=ebac.Tapping(), tremor_amplitude=1e-3)
-    text = formatting.describe(ebac.Scenario(hand=hand, environment=ebac.Corner(), jitter=0.1))
+    text = descriptions.describe(ebac.Scenario(hand=hand, environment=ebac.Corner(), jitter=0.1))
     assert "a Tapping path, tremor 1 mm at 9 Hz" in text
     assert (
         "a corner of a wall of 10 kN/m at 0 mm and a wall of 10 kN/m at 0 mm, turned by 90" in text

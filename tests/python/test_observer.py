@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from typer.testing import CliRunner
 
 import ebac
-from ebac._util.formatting import describe
+from ebac._util.descriptions import describe
 from ebac.cli import app
 from ebac.laws import design
 

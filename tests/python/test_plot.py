@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from matplotlib.image import imread
 
 import ebac
-from ebac._util import formatting
+from ebac._util import descriptions
 from ebac.plot import COLOURS, DPI, colour, plot_columns, plot_overlay, plot_trace, plot_walls
 from ebac.plot.marks import for_law
 from ebac.plot.run import stiffness_in_motion
@@ -308,12 +308,12 @@ def test_a_figure_of_one_law_names_the_observer_where_the_law_uses_it(
     trace = run(law, observer=observer, seconds=0.5)
     for figure in (plot_trace(trace), plot_walls([trace]), plot_columns(trace, ["x"])):
         assert f"1 sample of delay{said}; 0.5 s" in figure.get_suptitle()
-    described = formatting.describe(trace.scenario)
+    described = descriptions.describe(trace.scenario)
     assert f"1 sample of delay{said}; 0.5 s" in for_law(described, law)
 
 
 def test_of_a_law_that_is_not_known_a_title_says_what_the_scenario_says() -> None:
-    described = formatting.describe(ebac.Scenario())
+    described = descriptions.describe(ebac.Scenario())
     assert for_law(described, "mine") == described
 
 

@@ -47,9 +47,8 @@ class MotorStrength {
   }
 
  private:
-  static constexpr double kTouch = 0.5;  // N, of the motor, from here on the device touches a world
-  static constexpr double kStiff =
-      3e3;  // N/m, a force that grows by less with the way says nothing
+  static constexpr double kTouch = 0.5;    // N, a smaller command says nothing
+  static constexpr double kStiff = 3e3;    // N/m, nor does a force that grows by less with the way
   static constexpr double kMemory = 0.02;  // s, over which way and growth are averaged
   static constexpr double kSwing = 3e-3;   // m/s, faster counts as this
   static constexpr double kLead = 0.5;  // counts that the estimate shall lead by at that velocity

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, TypeAlias
 import numpy as np
 
 from ebac._core import Wall
-from ebac._util import formatting
+from ebac._util import descriptions, formatting
 from ebac.laws import design
 from ebac.metrics import Contact, contact
 from ebac.paper.finding import Finding, Row, judge, row
@@ -136,7 +136,7 @@ def _draw(traces: Runs) -> Picture:
     figure_legend(figure, handles, labels)
     given = traces["ebac", next(iter(WALLS))].scenario
     assert given is not None
-    parts = formatting.describe(given).split("; ")
+    parts = descriptions.describe(given).split("; ")
     figure.suptitle(f"simulated: {parts[0]}; {parts[1]}; {parts[3]}", fontsize="medium")
     figure.align_ylabels()
     return figure

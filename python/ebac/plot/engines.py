@@ -66,8 +66,8 @@ def plot_engines(found: Engines) -> Picture:
         ax.set_xlabel("time [s]")
     handles, labels = grid[0, 0].get_legend_handles_labels()
     figure_legend(figure, handles, labels)
-    from ebac._util import formatting
+    from ebac._util import descriptions
 
-    parts = formatting.describe(found.base).split("; ")
+    parts = descriptions.describe(found.base).split("; ")
     figure.suptitle(f"A slow engine, simulated: {'; '.join(parts[:3])}", fontsize="medium")
     return figure

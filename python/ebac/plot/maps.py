@@ -9,7 +9,7 @@ from matplotlib.axes import Axes
 from matplotlib.colors import BoundaryNorm, ListedColormap, LogNorm
 from matplotlib.figure import Figure
 
-from ebac._util import formatting
+from ebac._util import descriptions, formatting
 from ebac._util.arrays import Values
 from ebac.metrics import STILL_SWING
 from ebac.plot.marks import for_law
@@ -66,7 +66,7 @@ def plot_map(found: StabilityMap) -> Picture:
 
 def _title(found: StabilityMap) -> str:
     shares = found.scores()
-    parts = for_law(formatting.describe(found.base), found.law).split("; ")
+    parts = for_law(descriptions.describe(found.base), found.law).split("; ")
     quiet, energy, exact = (
         formatting.quantity(shares[f"{name}_share"], "share")
         for name in ("quiet", "energy", "exact")

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from matplotlib.axes import Axes
 
 from ebac._core import Fault
-from ebac._util import formatting
+from ebac._util import descriptions
 from ebac.laws import LAWS
 from ebac.metrics import observer_use
 from ebac.scenario import Scenario
@@ -38,7 +38,7 @@ def title(trace: Trace) -> str:
         )
     if trace.scenario is None:
         return f"{name}, {trace.origin}{end}"
-    parts = for_laws(formatting.describe(trace.scenario), [trace]).split("; ")
+    parts = for_laws(descriptions.describe(trace.scenario), [trace]).split("; ")
     if "true.x" in trace:
         return f"{name}, {trace.origin}: {parts[0]}; {parts[1]}\n{'; '.join(parts[2:])}{end}"
     if "f_env" not in trace:  # no loop's: of a gastroscopy, whose world is the patient
@@ -83,7 +83,7 @@ def for_law(described: str, law: str) -> str:
 
 def heading(scenario: Scenario, source: str = "simulated") -> str:
     """Return two lines for a figure of several runs of one scenario: device and hand, wall and time."""
-    parts = formatting.describe(scenario).split("; ")
+    parts = descriptions.describe(scenario).split("; ")
     return f"{source}: {parts[0]}; {parts[1]}\n{'; '.join(parts[2:])}"
 
 

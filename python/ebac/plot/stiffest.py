@@ -9,7 +9,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 
-from ebac._util import formatting
+from ebac._util import descriptions
 from ebac._util.plural import plural
 from ebac.plot.style import Picture, colours, dress, figure_legend, new_figure, plain_decades
 
@@ -76,7 +76,7 @@ def _draw(found: Stiffest, abreast: int) -> Picture:
     handles.append(Line2D([], [], **NEEDED))
     needed = f"needed: {plural(found.needed, 'hand')} of {found.hands}"
     figure_legend(figure, handles, [*(name for name, _ in known), needed])
-    device, _, *others = formatting.describe(found.base).split("; ")
+    device, _, *others = descriptions.describe(found.base).split("; ")
     figure.suptitle(
         f"Which walls each law holds for {found.hands} hands, simulated: {device}; {others[-2]}",
         fontsize="medium",

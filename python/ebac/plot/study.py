@@ -16,7 +16,7 @@ from matplotlib.patheffects import withStroke
 from matplotlib.ticker import FuncFormatter
 from numpy.typing import NDArray
 
-from ebac._util import formatting
+from ebac._util import descriptions
 from ebac.metrics import STILL_SWING
 from ebac.plot.style import Picture, colours, figure_legend, new_figure
 
@@ -137,7 +137,7 @@ def _setting(study: Study, conditions: list[str]) -> str:
     runs = np.concatenate([study.runs(law, name) for name in conditions]) % len(study.scenarios)
     device, world, timing = zip(
         *((parts[0], "; ".join(parts[2:-2]), parts[-2])
-          for parts in (formatting.describe(study.scenarios[run]).split("; ") for run in runs)),
+          for parts in (descriptions.describe(study.scenarios[run]).split("; ") for run in runs)),
         strict=True,
     )  # fmt: skip
     changed = "" if len(set(device)) == 1 else ", changed as each condition says"
@@ -243,7 +243,7 @@ def _overview(study: Study, *, narrow: bool) -> Picture:
     right.set_title("most energy drawn in any window", fontsize="medium")
     figure.suptitle(
         f"Study, simulated with {len(study.operators)} hands\n"
-        f"{formatting.describe(study.scenarios[0]).split('; ')[0]}, changed as each condition says",
+        f"{descriptions.describe(study.scenarios[0]).split('; ')[0]}, changed as each condition says",
         fontsize="medium",
     )
     for ax in (left, right):

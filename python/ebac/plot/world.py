@@ -11,7 +11,7 @@ from matplotlib.patches import Rectangle
 from matplotlib.ticker import MaxNLocator
 from numpy.typing import NDArray
 
-from ebac._util import formatting
+from ebac._util import descriptions
 from ebac._util.arguments import require
 from ebac._util.arrays import Values
 from ebac.plot.style import Picture, colour, dress, legend, new_figure
@@ -58,7 +58,7 @@ def plot_world(world: World, traces: Sequence[Trace] = ()) -> Picture:
     for cut, across in zip(cuts, directions, strict=True):
         _cut(cut, world, traces, across, half)
     source = "simulated: " if traces else ""
-    figure.suptitle(source + formatting.world(world), fontsize="medium")
+    figure.suptitle(source + descriptions.world(world), fontsize="medium")
     return figure
 
 

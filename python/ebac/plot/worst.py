@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from matplotlib.axes import Axes
 
-from ebac._util import formatting
+from ebac._util import descriptions, formatting
 from ebac.plot.marks import for_law, mark_cut
 from ebac.plot.style import QUANTITIES, Picture, colour, dress, legend, line, new_figure
 
@@ -73,7 +73,9 @@ def _title(found: Worst, hand: WorstHand) -> str:
         f"{p.name} {formatting.quantity(hand.values[p.name], p.unit)}"
         for p in hand.family.parameters
     )
-    device, _, wall, timing, *_ = for_law(formatting.describe(hand.scenario), found.law).split("; ")
+    device, _, wall, timing, *_ = for_law(descriptions.describe(hand.scenario), found.law).split(
+        "; "
+    )
     world = f"{device}; {wall}; {timing}"
     quick = found.pull_rate
     if quick is not None:

@@ -12,7 +12,7 @@ from matplotlib.axes import Axes
 from matplotlib.ticker import LogLocator, MaxNLocator
 from numpy.typing import NDArray
 
-from ebac._util import formatting
+from ebac._util import descriptions
 from ebac._util.arrays import Values
 from ebac.plot.shared_lines import side_by_side
 from ebac.plot.style import Picture, colours, dress, figure_legend, new_figure
@@ -125,7 +125,7 @@ def _draw(found: ZWidth, criteria: list[str], *, narrow: bool) -> Picture:
 
 
 def _title(found: ZWidth, criteria: list[str]) -> str:
-    parts = formatting.describe(found.base).split("; ")
+    parts = descriptions.describe(found.base).split("; ")
     energy = f"{1e3 * found.epsilon:g} mJ drawn"
     if found.hands:
         energy += f" ({found.random_hands} included)"

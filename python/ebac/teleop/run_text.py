@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from ebac._util import formatting
+from ebac._util import descriptions, formatting
 
 if TYPE_CHECKING:
     from ebac._core import Link, SlaveModel
@@ -39,9 +39,9 @@ def conditions(run: Run) -> tuple[str, ...]:
         f"law {run.law}",
         network,
         _contact(run.slave),
-        formatting.described_hand(run.scenario.hand),
-        formatting.described_device(run.scenario.device),
-        formatting.described_time(run.scenario),
+        descriptions.described_hand(run.scenario.hand),
+        descriptions.described_device(run.scenario.device),
+        descriptions.described_time(run.scenario),
     )
 
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ebac._core import FEWEST_ROWS
-from ebac._util import formatting
+from ebac._util import descriptions, formatting
 from ebac._util.arguments import whole
 from ebac._util.report import aligned
 
@@ -60,7 +60,7 @@ def summary(trace: Trace) -> Text:
 
     lines = [repr(trace)]
     if trace.scenario is not None:
-        device, *parts = formatting.describe(trace.scenario).split("; ")
+        device, *parts = descriptions.describe(trace.scenario).split("; ")
         lines += [f"  {trace.origin}: {device}", *(f"    {part}" for part in parts)]
     if len(trace) >= FEWEST_ROWS and "f_applied" in trace:
         lines.append(f"  {contact(trace)!r}".replace("<Contact of", "contact of").removesuffix(">"))

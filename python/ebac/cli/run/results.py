@@ -261,10 +261,10 @@ def show(result: Result) -> None:
 
 def _setup(result: Result) -> str:
     """Return device, hand, virtual world and timing, a line each: of an engine no world, of a person no hand."""
-    from ebac._util import formatting
+    from ebac._util import descriptions
 
     scenario = without_engine(result.configuration).scenario()
-    device, hand, world, timing, *length = formatting.describe(scenario).split("; ")
+    device, hand, world, timing, *length = descriptions.describe(scenario).split("; ")
     lines = [device]
     lines += [hand] if result.simulated else []
     lines += [world] if result.engine is None else []

@@ -89,7 +89,7 @@ def _fill(draft: Path, found: Engines, to: ResultOptions) -> None:
 
 
 def _show(found: Engines) -> None:
-    from ebac._util import formatting
+    from ebac._util import descriptions, formatting
 
     grid = output.table(["law", "world", "swing", "least energy", "verdict"], numbers=(2, 3))
     before = None
@@ -113,7 +113,7 @@ def _show(found: Engines) -> None:
             f"{_times(found)} and up to {1e3 * (late.jitter_s or 0):g} ms more at random."
         )
     output.say("Simulated, not measured:", style="bold")
-    output.indented(formatting.describe(found.base).replace("; ", "\n"))
+    output.indented(descriptions.describe(found.base).replace("; ", "\n"))
 
 
 def _times(found: Engines) -> str:

@@ -163,7 +163,7 @@ def _fill(draft: Path, maps: list[StabilityMap], to: ResultOptions, *, quiet: bo
 
 
 def _show(maps: list[StabilityMap]) -> None:
-    from ebac._util import formatting
+    from ebac._util import descriptions, formatting
 
     names = ("quiet_share", "energy_share", "quiet_and_energy_share", "exact_share")
     headings = ["law", "quiet", "at most 1 mJ", "both", "exact and quiet"]
@@ -177,7 +177,7 @@ def _show(maps: list[StabilityMap]) -> None:
     along, up = maps[0].axes
     output.say(f"Share of the area: {_range(along, maps[0].xs)} by {_range(up, maps[0].ys)}.")
     output.say("Simulation. These two vary; everything else as in:", style="bold")
-    output.indented(formatting.describe(maps[0].base).replace("; ", "\n"))
+    output.indented(descriptions.describe(maps[0].base).replace("; ", "\n"))
 
 
 def _range(axis: MapAxis, values: Any) -> str:

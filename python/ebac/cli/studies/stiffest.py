@@ -129,7 +129,7 @@ def _fill(draft: Path, found: Stiffest, to: ResultOptions) -> None:
 
 
 def _show(found: Stiffest) -> None:
-    from ebac._util import formatting
+    from ebac._util import descriptions, formatting
 
     output.say(
         f"Stiffest wall [kN/m] up to which {found.needed} of {found.hands} hands are exact and still, good, good in "
@@ -174,7 +174,7 @@ def _show(found: Stiffest) -> None:
             "In time is not judged: the time at an ideal wall is known on straight axes only."
         )
     output.say("Simulated, not measured. Stiffness and hand vary; everything else:", style="bold")
-    device, _, *others = formatting.describe(found.base).split("; ")
+    device, _, *others = descriptions.describe(found.base).split("; ")
     output.indented("\n".join([device, *others[-2:]]))
 
 

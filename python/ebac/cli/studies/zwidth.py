@@ -169,7 +169,7 @@ def _fill(draft: Path, found: ZWidth, to: ResultOptions) -> None:
 
 
 def _show(found: ZWidth) -> None:
-    from ebac._util import formatting
+    from ebac._util import descriptions
     from ebac.studies.families import PULL
     from ebac.studies.zwidth import CRITERIA
 
@@ -229,7 +229,7 @@ def _show(found: ZWidth) -> None:
         "Simulation. Wall stiffness, wall damping and delay vary as above; everything else:",
         style="bold",
     )
-    output.indented(_shared(formatting.describe(found.base)).replace("; ", "\n"))
+    output.indented(_shared(descriptions.describe(found.base)).replace("; ", "\n"))
 
 
 def _shared(described: str) -> str:

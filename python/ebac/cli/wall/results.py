@@ -148,7 +148,7 @@ def show(
     bodies: list[WorldContact] | None = None,
 ) -> None:
     """Print the table, a few laws at a time, that of the bodies, and what was simulated."""
-    from ebac._util import formatting
+    from ebac._util import descriptions
     from ebac.metrics.unjudged import no_ideal_rest
     from ebac.metrics.world_contact import LINES as BODY_LINES
 
@@ -169,7 +169,7 @@ def show(
             "hold the handle."
         )
     output.say("Simulated, not measured:", style="bold")
-    output.indented(formatting.describe(scenario).replace("; ", "\n"))
+    output.indented(descriptions.describe(scenario).replace("; ", "\n"))
     if through is not None:
         output.indented(
             "through a CAN bus in this process, with simulated CANopen drives, torque in whole thousandths of the "
