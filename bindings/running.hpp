@@ -74,7 +74,7 @@ class Running {
   AppliedUpdates& changes() const { return updates_->applied(); }
 
   std::uint64_t retune(const AnyLaw& next);
-  /// Another law, whose force is blended in. Throws std::invalid_argument for one that no loop may run.
+  /// Another law, whose force is blended in.
   std::uint64_t replace(const AnyLaw& next);
   template <class Value>
   std::uint64_t post(const Value& value) {

@@ -48,18 +48,12 @@ std::uint64_t Running::retune(const AnyLaw& next) {
 }
 
 std::uint64_t Running::replace(const AnyLaw& next) {
-  if (!next.type().tunable) {
-    throw std::invalid_argument(
-        std::string(next.type().name) +
-        ": cannot replace the law of a running loop, as it is not one of the library's");
-  }
   const std::scoped_lock one_writer(writers_);
   newest_ = next;
   return updates_->post(next);
 }
 
 void add_start(const LawClass& law) {
-  if (!law.type->tunable) return;
   law.def(
       "_start",
       [](const AnyLaw& any, const py::object& bus, const RunSetup& setup) {

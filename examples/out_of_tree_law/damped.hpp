@@ -13,19 +13,19 @@ class Damped {
   static constexpr bool kPassive = false;
 
   struct Params {
-    double damping = 30;       // N s/m
-    double peak_force = 42.4;  // N
+    double virtual_damping = 30;  // N s/m
+    double peak_force = 42.4;     // N
 
     /// From what a user can know about a device, never from the wall.
     static constexpr Params design(const ebac::DeviceFacts& facts, ebac::Timing timing) {
       const double late = (timing.delay + 0.5) * timing.dt + facts.current_lag;
-      return {.damping = 0.35 * facts.mass / late, .peak_force = facts.peak_force};
+      return {.virtual_damping = 0.35 * facts.mass / late, .peak_force = facts.peak_force};
     }
     /// Names, units and ranges: Python's keywords, errors and documentation come from here.
     static constexpr auto fields() {
       using F = ebac::Field<Params>;
       return std::array{
-          F{"damping", &Params::damping, "N s/m", "virtual damping in contact", 0, 500},
+          F{"virtual_damping", &Params::virtual_damping, "N s/m", "damping in contact", 0, 500},
           F{"peak_force", &Params::peak_force, "N", "largest command", 1e-3, 1e4},
       };
     }
@@ -45,10 +45,12 @@ class Damped {
       : params_(ebac::checked(params, "Damped")), timing_(ebac::checked(timing, "Timing")) {}
 
   double step(const ebac::Port& port) EBAC_RT {
-    state_.injected = port.f_env > 0 ? params_.damping * port.v : 0.0;
+    state_.injected = port.f_env > 0 ? params_.virtual_damping * port.v : 0.0;
     return std::clamp(port.f_env + state_.injected, -params_.peak_force, params_.peak_force);
   }
   void reset() EBAC_RT { state_ = {}; }
+  /// Optional: takes the gains of `next` while it runs and keeps its state.
+  void retune(const Damped& next) EBAC_RT { params_ = next.params_; }
   const State& state() const EBAC_RT { return state_; }
   const Params& params() const EBAC_RT { return params_; }
   const ebac::Timing& timing() const EBAC_RT { return timing_; }

@@ -16,6 +16,6 @@ print(law)
 trace = ebac.simulate(scenario, law)
 assert "law.injected" in trace
 try:
-    Damped(damping=-3)
+    Damped(virtual_damping=-3)
 except ValueError as error:
     print(error)

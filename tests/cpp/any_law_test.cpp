@@ -113,9 +113,10 @@ class Fixed : public Direct {
   void retune(const Fixed&) = delete;
 };
 
-TEST(AnyLaw, WithoutRetuneIsRefused) {
+TEST(AnyLaw, WithoutRetuneTakesOverAnewAndIsNotRetuned) {
   const AnyLaw law = any_law(Fixed(Direct::Params{}));
   EXPECT_FALSE(law.type().tunable);
+  EXPECT_FALSE(law.same_but_gains(law));
   try {
     check_retune(law, law);
     FAIL() << "it was accepted";

@@ -182,3 +182,40 @@ def test_what_a_law_raises_ends_the_run_and_names_it() -> None:
     assert "damped" in result.stderr.lower()
     assert "wide" in result.stderr
     assert "Traceback" not in result.output
+
+
+COMPILED = (
+    "import ebac\nheavy = ebac.TCADamped(virtual_damping=50.0, timing=ebac.Timing(delay=1))\n"
+)
+
+
+def test_a_compiled_law_runs_on_drives_and_in_a_gastroscopy() -> None:
+    Path("compiled.py").write_text(COMPILED, encoding="utf-8")
+    assert run("demo", "joystick").exit_code == 0
+    found = rows(
+        "run", "joystick.toml", "--virtual", "--law", "compiled.py:heavy", "--seconds", "0.5"
+    )
+    assert found[0]["law"] == "tca-damped"
+    assert (
+        rows("gastroscopy", "--law", "compiled.py:heavy", "--seconds", "0.2")[0]["law"]
+        == "tca-damped"
+    )
+
+
+@pytest.mark.parametrize(
+    "command", ["run joystick.toml --virtual", "gastroscopy", "live --virtual"]
+)
+def test_a_loop_without_python_refuses_a_law_in_python_by_its_name(command: str) -> None:
+    assert run("demo", "joystick").exit_code == 0
+    result = run(*command.split(), "--law", "mine.py:Damped")
+    assert result.exit_code == 2
+    told = " ".join(result.stderr.split())
+    assert "damped: is written in Python" in told
+    assert "write it in C++" in told
+    assert not list(Path().glob("ebac-*"))
+
+
+def test_a_module_that_does_not_load_says_why() -> None:
+    text = "try:\n    1 / 0\nexcept ZeroDivisionError as error:\n    raise ImportError('failed') from error\n"
+    Path("stale.py").write_text(text, encoding="utf-8")
+    assert "ZeroDivisionError" in run("wall", "--law", "stale.py:X", "--no-files").stderr

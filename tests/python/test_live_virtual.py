@@ -238,3 +238,18 @@ def test_a_handle_that_left_the_surface_has_no_contact_at_rest(session: Session)
         assert told() in ("Still and quiet", "Buzzes")
         session.hand.drag([-0.02, 0.0])
         assert told() == "No contact at rest"
+
+
+def test_a_law_of_ones_own_can_be_chosen_beside_those_of_the_package(tmp_path: Path) -> None:
+    mine = ebac.Variant("tca-damped", {"virtual_damping": 50.0})
+    with Session(law=mine, virtual=True, paced=False, folder=tmp_path) as session:
+        session.start()
+        assert session.run is not None
+        session.run.advance(10)  # type: ignore[attr-defined]
+        assert session.run.law.virtual_damping == 50  # type: ignore[attr-defined]
+        assert Frames(session).state()["options"]["law"][-1] == mine.name
+        session.change(law="ebac")
+        session.change(law=mine.name)
+        assert session.run.law.virtual_damping == 50  # type: ignore[attr-defined]
+        with pytest.raises(KeyError, match="magic"):
+            session.change(law="magic")

@@ -95,9 +95,9 @@ class AnyLaw {
   double step(const Port& port) EBAC_RT { return law_->step(port); }
   void reset() EBAC_RT { law_->reset(); }
   void retune(const AnyLaw& next) EBAC_RT { law_->retune(*next.law_); }
-  /// Whether `next` differs in its gains only, so that this one may take them and keep its memory.
+  /// Whether `next` differs in its gains only and this one can take them, so that it keeps its memory.
   bool same_but_gains(const AnyLaw& next) const EBAC_RT {
-    return &type() == &next.type() && timing() == next.timing() &&
+    return type().tunable && &type() == &next.type() && timing() == next.timing() &&
            fixed_change(type().params, params(), next.params()) == nullptr;
   }
 

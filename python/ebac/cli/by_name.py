@@ -17,22 +17,29 @@ if TYPE_CHECKING:
 _OWN_LAW = "; here a law of your own is used from Python only: see docs/how-to/write_a_law.md"
 
 
-def one_law(name: str, option: str = "--law") -> str:
-    """Return a law by its name, in any case, where there can be one only."""
-    names = law_names([name], option)
+def one_law(name: str, option: str = "--law", own: str = _OWN_LAW) -> str:
+    """Return a law by its name, in any case, where there can be one only; `own` as in `law_names`."""
+    names = law_names([name], option, own)
     if len(names) != 1:
         raise ValueError(f"{option} {name}: one law only; give one of {', '.join(names)}")
     return names[0]
 
 
-def designed_law(name: str, where: str) -> str:
-    """Return a law by its name, `where` none has tuned parameters; each is designed for wall and device there."""
+def any_law(word: str, option: str = "--law") -> AnyLaw:
+    """Return the one law that a name, or a word such as "my_laws:Damped", stands for."""
+    if _is_own(word) and "," not in word:
+        return own_law(word, option)
+    return one_law(word, option, own=f"; {FORM}")
+
+
+def designed_law(word: str, where: str) -> AnyLaw:
+    """Return a law as `any_law` does, `where` none has tuned parameters; each is designed for the device there."""
     from ebac.laws.tuned_laws import tuned_laws
 
-    law, tuned, _ = name.lower().replace("_", "-").partition("-tuned")
+    law, tuned, _ = word.lower().replace("_", "-").partition("-tuned")
     if tuned and any(one.startswith(f"{law}-tuned") for one in tuned_laws()):
-        raise ValueError(f"--law {name}: {where} has no laws with tuned parameters; give {law}")
-    return one_law(name)
+        raise ValueError(f"--law {word}: {where} has no laws with tuned parameters; give {law}")
+    return any_law(word)
 
 
 def law_names(given: Sequence[str], option: str = "--law", own: str = _OWN_LAW) -> list[str]:

@@ -43,7 +43,7 @@ def live(
             help="Also simulate the clock: no tick is late, however busy the machine is.",
         ),
     ] = False,
-    law: Annotated[str | None, options.one_law(default="as configured")] = None,
+    law: Annotated[str | None, options.one_law(default="as configured", own=True)] = None,
     observer: Annotated[bool | None, options.observer(default="on; with a file as in it")] = None,
     scenario: Annotated[
         Path | None,
@@ -190,7 +190,7 @@ def _serve(
             doubtful_run.tell(str(file), known)
             known = known.replace(**observer_change(known, settings.pop("observer")))
         given = known if scenario is None else _scenario_of(scenario)
-        name = None if law is None else by_name.designed_law(law, "the page")
+        wanted = None if law is None else by_name.designed_law(law, "the page")
     with ExitStack() as stack:
         interrupts = stack.enter_context(Interrupts())
         interrupts.moving()
@@ -205,7 +205,7 @@ def _serve(
             if settings["allow_control"]:
                 confirm(device, yes, stderr=as_json)
         try:
-            server = stack.enter_context(serve(given, device=device, law=name, **settings))
+            server = stack.enter_context(serve(given, device=device, law=wanted, **settings))
         except ImportError as error:
             output.fail(str(error))
         except OSError as error:

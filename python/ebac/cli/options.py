@@ -40,12 +40,13 @@ def laws(default: str, *, panel: str = RUN) -> Any:
     )
 
 
-def one_law(*, panel: str = RUN, default: str | bool = True) -> Any:
-    """Return the option for one law."""
+def one_law(*, panel: str = RUN, default: str | bool = True, own: bool = False) -> Any:
+    """Return the option for one law; `own`: it may be one of one's own that is compiled."""
+    more = ", or of your own in C++, MODULE:NAME" if own else ""
     return typer.Option(
         "--law",
         "-l",
-        help="A law by name, see `ebac laws`.",
+        help=f"A law by name, see `ebac laws`{more}.",
         show_default=default,
         rich_help_panel=panel,
         autocompletion=completion.laws,

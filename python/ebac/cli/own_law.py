@@ -108,8 +108,10 @@ def _is_law(value: object, module: ModuleType) -> bool:
     return hasattr(value, "step") and hasattr(value, "reset")
 
 
-def _last(error: Exception) -> str:
-    """Return an error and where it was raised."""
+def _last(error: BaseException) -> str:
+    """Return what an error came from, and where that was raised."""
+    while error.__cause__ is not None:  # "initialization failed" of a module in C++ says nothing
+        error = error.__cause__
     frames = traceback.extract_tb(error.__traceback__)
     theirs = [frame for frame in frames if frame.filename != __file__]
     at = f" ({Path(theirs[-1].filename).name}, line {theirs[-1].lineno})" if theirs else ""

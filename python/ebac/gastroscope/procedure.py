@@ -14,7 +14,7 @@ from ebac import _core
 from ebac._core import Device, Free, Hand, Master, Patient, Physician, Polyp, Scope, Step
 from ebac.gastroscope.lumen import Lumen
 from ebac.laws import AnyLaw, CoreLaw, design, law_name
-from ebac.laws.protocols import is_core_law
+from ebac.laws.making import compiled
 from ebac.laws.tuned_laws import on_its_observer
 from ebac.presets import DEVICES
 from ebac.scenario import Scenario
@@ -217,10 +217,7 @@ def core_law(law: AnyLaw, scenario: Scenario) -> CoreLaw:
     TypeError
         For a law that is written in Python.
     """
-    made = design(law, scenario.device, scenario.timing)
-    if not is_core_law(made):
-        raise TypeError(f"law = {law!r}: a gastroscopy takes the laws of the core, see ebac laws")
-    return made
+    return compiled(design(law, scenario.device, scenario.timing))
 
 
 def gastroscopy(

@@ -22,7 +22,7 @@ from ebac.hardware.reading import needs_force, read
 from ebac.hardware.signs import Signs
 from ebac.hardware.tables import ConfigurationError
 from ebac.hardware.zero import Zero
-from ebac.laws import CoreLaw
+from ebac.laws import AnyLaw, CoreLaw, law_name
 from ebac.laws.tuned_laws import on_its_observer
 from ebac.realtime.mode import Mode
 from ebac.scenario import Environment, Scenario
@@ -73,8 +73,8 @@ class Configuration:
         in place of `environment`. In Python start a `worlds.EngineProcess` and pass its world to the run.
     rendering : BridgeParams
         How one model of the engine replaces the previous one, and how the force fades.
-    law : str
-        Name of the law.
+    law : str, law class, Variant or law
+        Name of the law, or a law compiled in C++ as `ebac.design` takes it.
     changes : mapping
         Parameters of the law that replace those of its design, in SI units.
     limits : Limits
@@ -123,7 +123,7 @@ class Configuration:
     environment: Environment = field(default_factory=Wall)
     engine: str = ""
     rendering: BridgeParams = field(default_factory=BridgeParams)
-    law: str = "ebac"
+    law: AnyLaw = "ebac"
     changes: Mapping[str, Any] = field(default_factory=dict)
     limits: Limits
     seconds: float = 10.0
@@ -312,6 +312,6 @@ class Configuration:
         """Return one line: name, bus, drives, law, timing."""
         nodes = ", ".join(str(node.id) for node in self.drives.nodes)
         return (
-            f"<Configuration {self.name}: {self.interface} {self.channel}, nodes {nodes}; {self.law}, "
+            f"<Configuration {self.name}: {self.interface} {self.channel}, nodes {nodes}; {law_name(self.law)}, "
             f"{1e3 * self.timing.dt:g} ms, {self.seconds:g} s; its TOML in .text>"
         )

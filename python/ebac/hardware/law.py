@@ -6,8 +6,8 @@ from collections.abc import Mapping
 from typing import Any
 
 from ebac._core import Device, Timing
-from ebac.laws import LAWS, AnyLaw, CoreLaw, design
-from ebac.laws.protocols import is_core_law
+from ebac.laws import AnyLaw, CoreLaw, design
+from ebac.laws.making import compiled
 
 
 def designed(
@@ -35,10 +35,5 @@ def designed(
     ValueError
         When a gain of the force loop is requested without a force sensor.
     """
-    made = design(law, device if sensor else device.replace(sensor=None), timing, **changes)
-    if not is_core_law(made):
-        raise TypeError(
-            f"{law!r} is written in Python: the loop's thread never touches Python, so only a law of "
-            f"the core runs on hardware: {', '.join(LAWS)}"
-        )
-    return made
+    fitted = device if sensor else device.replace(sensor=None)
+    return compiled(design(law, fitted, timing, **changes))

@@ -141,6 +141,16 @@ def checked(law: Any) -> CoreLaw | PythonLaw:
     return law
 
 
+def compiled(law: CoreLaw | PythonLaw) -> CoreLaw:
+    """Return a finished law that is compiled, for a loop that runs no Python. Raises TypeError for one in Python."""
+    if not is_core_law(law):
+        raise TypeError(
+            f"law {law_name(law)}: is written in Python, and this loop runs no Python; write it in C++ "
+            "(docs/how-to/write_a_law.md), or try it with `ebac wall` or ebac.simulate"
+        )
+    return law
+
+
 def reserve_of(law: CoreLaw | PythonLaw, scenario: Scenario) -> float | None:
     """Return the energy [J] that a law's account begins with in a scenario; None for a law without a reserve.
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import asdict, dataclass, replace
 from typing import Any, Literal, Self
 
@@ -35,8 +36,8 @@ class Choices:
     stiffness: float = 10e3
     damping: float = 0.0
 
-    def with_changes(self, changes: dict[str, Any]) -> Self:
-        """Return a copy with some of them changed, each checked.
+    def with_changes(self, changes: dict[str, Any], laws: Iterable[str] = LAWS) -> Self:
+        """Return a copy with some of them changed, each checked; `laws` are the names of the laws there are.
 
         Raises
         ------
@@ -46,7 +47,7 @@ class Choices:
             For a type or a number that cannot be.
         """
         for name, value in changes.items():
-            _check(name, value)
+            _check(name, value, options(laws))
         return replace(self, **changes)
 
     def row(self) -> dict[str, Any]:
@@ -54,12 +55,12 @@ class Choices:
         return asdict(self)
 
 
-def options() -> dict[str, list[str]]:
-    """Return the names to choose from."""
+def options(laws: Iterable[str] = LAWS) -> dict[str, list[str]]:
+    """Return the names to choose from; `laws` as in `Choices.with_changes`."""
     from ebac.worlds.presets import PRESETS
 
     return {
-        "law": list(LAWS),
+        "law": list(laws),
         "hand": [CONFIGURED, *presets.HANDS],
         "world": [
             CONFIGURED,
@@ -72,8 +73,7 @@ def options() -> dict[str, list[str]]:
     }
 
 
-def _check(name: str, value: Any) -> None:
-    names = options()
+def _check(name: str, value: Any, names: dict[str, list[str]]) -> None:
     if name in names:
         if not isinstance(value, str) or value not in names[name]:
             raise unknown_name(name, str(value)[:40], names[name])

@@ -55,7 +55,7 @@ class Frames:
         session = self._session
         return {
             "choices": session.choices.row(),
-            "options": options(),
+            "options": options(session.laws),
             "ranges": session.ranges,
             "axes": session.hand.axes,
             "mode": session.hand.mode,

@@ -7,6 +7,7 @@ from contextlib import contextmanager
 from pathlib import Path
 
 from ebac.hardware import Configuration, OpenDevice
+from ebac.laws import AnyLaw
 from ebac.live.server import Server
 from ebac.live.session import Session
 from ebac.scenario import Scenario
@@ -17,7 +18,7 @@ def serve(
     given: Scenario | Configuration | None = None,
     *,
     device: OpenDevice | None = None,
-    law: str | None = None,
+    law: AnyLaw | None = None,
     observer: bool | None = None,
     host: str = "127.0.0.1",
     port: int = 0,
@@ -41,8 +42,9 @@ def serve(
         What to begin with; default: the paper's joystick at a wall of 10 kN/m.
     device : OpenDevice, optional
         Hardware; it stays open.
-    law : str, optional
-        The law to begin with; default: that of the configuration, or "ebac".
+    law : str, law class, Variant or law, optional
+        The law to begin with; default: that of the configuration, or "ebac". A page can choose it by its name beside
+        those of `ebac.LAWS`.
     observer : bool, optional
         Whether a simulation begins with the state observer; default: as given, else with it.
     host : str

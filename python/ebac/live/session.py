@@ -12,6 +12,7 @@ from typing import Any, Self
 from ebac._util.wrong_calls import plain_constructor
 from ebac.hardware import Configuration, OpenDevice, Run
 from ebac.hardware.virtual_device import VirtualDevice, VirtualRun
+from ebac.laws import LAWS, AnyLaw, law_name
 from ebac.live.choices import CONFIGURED, RANGES, Choices, base_of
 from ebac.live.device_limits import DeviceLimits
 from ebac.live.intended_hand import IntendedHand
@@ -37,8 +38,9 @@ class Session(SessionChanges):
         A device that is open, as hardware is; it stays open. Without it simulated drives, device and hand.
     dead_man : bool, optional
         Whether the loop has power only while `hold` is called again within 0.3 s; on hardware always.
-    law : str, optional
-        The law to begin with.
+    law : str, law class, Variant or law, optional
+        The law to begin with. One that is not of `ebac.LAWS`, which must be compiled, can be chosen by its name beside
+        them.
     observer : bool, optional
         Whether the loop begins with the state observer; default: as given, else with it. A device that was given
         decides by its configuration.
@@ -80,7 +82,7 @@ class Session(SessionChanges):
         *,
         device: OpenDevice | None = None,
         dead_man: bool = False,
-        law: str | None = None,
+        law: AnyLaw | None = None,
         observer: bool | None = None,
         virtual: bool = False,
         paced: bool = True,
@@ -117,7 +119,11 @@ class Session(SessionChanges):
             delay=self.base.timing.delay,
             **own,
         )
-        self.choices = first.with_changes({"law": law or self.base.law})
+        wanted = law or self.base.law
+        self.laws: dict[str, AnyLaw] = {name: name for name in LAWS}
+        if not isinstance(wanted, str):
+            self.laws[law_name(wanted)] = wanted
+        self.choices = first.with_changes({"law": law_name(wanted)}, self.laws)
         self._chosen()
         self._clock = (lambda: self._time.now) if virtual else time.monotonic
         self.hand = IntendedHand(self.base, clock=self._clock)

@@ -52,7 +52,7 @@ class SessionChanges(SessionFiles):
             For what cannot be, and for what only a restart could change on hardware.
         """
         with self._lock:
-            after = self.choices.with_changes(changes)
+            after = self.choices.with_changes(changes, self.laws)
             before, self.choices = self.choices, after
             try:
                 return self._apply(

@@ -11,6 +11,7 @@ from ebac.hardware.current_parameters import MOST_HELD_BACK
 from ebac.hardware.law import designed
 from ebac.hardware.patience import LONGEST_STEP, patient
 from ebac.hardware.virtual_device import VirtualDevice
+from ebac.laws import AnyLaw
 from ebac.live.choices import CONFIGURED, Choices, base_of, world_of
 from ebac.live.device_limits import DeviceLimits
 from ebac.live.intended_hand import IntendedHand
@@ -24,6 +25,7 @@ class SessionParts:
     """What is chosen, as parts of a run."""
 
     choices: Choices
+    laws: dict[str, AnyLaw]
     hand: IntendedHand
     real: bool
     virtual: bool
@@ -58,8 +60,8 @@ class SessionParts:
         return known.replace(
             timing=known.timing.replace(delay=delay),
             observer=known.observer if bool(known.observer) == observer else observer,
-            law=self.choices.law,
-            changes=known.changes if self.choices.law == known.law else {},
+            law=(law := self.laws[self.choices.law]),
+            changes=known.changes if law == known.law else {},
         )
 
     def _law(self) -> Any:

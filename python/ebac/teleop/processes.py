@@ -9,7 +9,7 @@ from ebac import _core
 from ebac._core import Link, SlaveModel
 from ebac._util.reach import check_reach
 from ebac.laws import CoreLaw, PythonLaw
-from ebac.laws.protocols import is_core_law
+from ebac.laws.making import compiled
 from ebac.scenario import Scenario
 from ebac.teleop.schemes import Scheme
 
@@ -81,12 +81,10 @@ class Master(_Side):
         peer: tuple[str, int],
         consent_after: float | None = None,
     ) -> None:
-        if not is_core_law(law):
-            raise TypeError(f"law = {law!r}: must be a law of the core, not one written in Python")
         check_reach(host, peer[0], "the slave")
         self._core = _core._UdpMaster(
             setup=scenario.setup(),
-            law=law,
+            law=compiled(law),
             coupling=scheme.coupling,
             host=host,
             port=port,

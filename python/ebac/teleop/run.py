@@ -13,7 +13,7 @@ from ebac import _core
 from ebac._core import STILL_SWING, TAIL_SHARE, Free, Hand, Link, MinimumJerk, SlaveModel
 from ebac._util.arguments import number, require, shown, unknown_name, whole
 from ebac.laws import AnyLaw, design, law_name
-from ebac.laws.protocols import is_core_law
+from ebac.laws.making import compiled
 from ebac.laws.tuned_laws import on_its_observer
 from ebac.scenario import Scenario
 from ebac.teleop import run_text
@@ -230,9 +230,7 @@ def simulate(
     path = hand or Hand(path=[MinimumJerk(target=0.045, at=1.2, duration=0.8)])
     full = given.replace(environment=Free(), hand=path, seconds=seconds, seed=seed)
     setup = on_its_observer(full, law or chosen.law).setup()
-    made = design(law or chosen.law, given.device, given.known_timing)
-    if not is_core_law(made):
-        raise TypeError(f"law = {made!r}: must be a law of the core, not one written in Python")
+    made = compiled(design(law or chosen.law, given.device, given.known_timing))
     to_slave = there or Link()
     to_master = back or to_slave
     model = slave or SlaveModel()

@@ -74,7 +74,7 @@ def gastroscopy(
     ctx: typer.Context,
     to: ResultOptions,
     how: MasterOptions,
-    law: Annotated[str, options.one_law()] = "ebac",
+    law: Annotated[str, options.one_law(own=True)] = "ebac",
     delay: Annotated[
         float,
         typer.Option(
@@ -142,23 +142,24 @@ def gastroscopy(
         return
     from ebac.gastroscope import Physician, Procedure
     from ebac.gastroscope import gastroscopy as run
+    from ebac.laws import law_name
 
     with output.refusing():
-        name = by_name.one_law(law)
+        wanted = by_name.any_law(law)
         procedure = Procedure(
             master=how.master(delay), physician=Physician(heed=heed), seconds=seconds, seed=seed
         )
         if live:
             if log is not None or to.out is not None:
                 output.fail("--live: writes no files; leave --log and --out out")
-            watch(name, procedure, port, no_browser=no_browser, as_json=as_json)
+            watch(wanted, procedure, port, no_browser=no_browser, as_json=as_json)
             return
         if port or no_browser:
             output.fail("--port and --no-browser belong to --live")
         folder = to.folder("gastroscopy", as_json=as_json)
         if log is not None:
-            log_names(log, [name], force=to.force)
-        full = run(name, procedure, every=EVERY if log is None else 1)
+            log_names(log, [law_name(wanted)], force=to.force)
+        full = run(wanted, procedure, every=EVERY if log is None else 1)
     if log is not None:
         _write_log(full, log)
     found = full if log is None else full.thinned(EVERY)

@@ -8,9 +8,10 @@ from ebac.cli import output
 
 if TYPE_CHECKING:
     from ebac.gastroscope import Procedure
+    from ebac.laws import AnyLaw
 
 
-def watch(law: str, procedure: Procedure, port: int, *, no_browser: bool, as_json: bool) -> None:
+def watch(law: AnyLaw, procedure: Procedure, port: int, *, no_browser: bool, as_json: bool) -> None:
     """Run it in real time and serve the page until it is interrupted."""
     from contextlib import ExitStack
 

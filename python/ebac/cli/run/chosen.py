@@ -33,7 +33,7 @@ def chosen(
         **setting.given(seconds=seconds),
         **observer_change(known, observer),
     }
-    name = None if law is None else by_name.one_law(law)
+    name = None if law is None else by_name.any_law(law)
     if name is not None and name != known.law:
         changes |= {"law": name, "changes": {}}
     made = known.replace(**changes)
