@@ -199,7 +199,8 @@ def show_table(columns: Mapping[str, Contact], *, verdict: bool = True) -> None:
     grid = _lines(LINES, columns)
     if verdict:
         grid.add_section()
-        grid.add_row("verdict", *(_verdict(contact) for contact in columns.values()))
+        alone = len(columns) == 1
+        grid.add_row("verdict", *(_verdict(contact, alone) for contact in columns.values()))
     output.show(grid)
 
 
@@ -223,9 +224,12 @@ def _lines(lines: Lines, columns: Mapping[str, object]) -> Table:
     return grid
 
 
-def _verdict(contact: Contact) -> str:
+def _verdict(contact: Contact, alone: bool) -> str:
+    """Return the verdict, in short lines unless it stands alone."""
     from ebac._util import verdicts
 
-    words = re.sub(r" (?=by|with|and|not quiet)|(?<=[,:]) ", "\n", verdicts.verdict(contact))
+    words = verdicts.verdict(contact)
+    if not alone:
+        words = re.sub(r" (?=by|with|and|not quiet)|(?<=[,:]) ", "\n", words)
     good = contact.quiet and contact.exact is not False and contact.touched_at_rest is not False
     return f"[{'green' if good else 'yellow' if contact.still else 'red'}]{words}[/]"
