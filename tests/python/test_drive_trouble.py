@@ -110,7 +110,7 @@ def test_an_answer_that_is_none_is_a_wrong_answer(data: bytes) -> None:
             for act in (lambda: drive.number("statusword"), lambda: drive.write("mode", 10)):
                 with pytest.raises((drives.WrongAnswer, drives.NoAnswer), match="node 5"):
                     act()
-            ran = command("scan", "--interface", "ebac", "--channel", channel, "--timeout", "0.02")
+            ran = command("scan", "--interface", "ebac", "--channel", channel, "--timeout", "0.005")
             assert ran.exit_code == 0
         notifier.stop()
 

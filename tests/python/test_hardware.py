@@ -142,6 +142,7 @@ def test_a_fault_is_one_exception_with_the_last_rows(tmp_path: Path) -> None:
     assert [e.values["fault"] for e in log.events if e.kind == "fault"] == [14]
 
 
+@pytest.mark.slow
 def test_drives_that_go_away_leave_the_fault_and_the_rows(
     monkeypatch: pytest.MonkeyPatch, until: Until
 ) -> None:

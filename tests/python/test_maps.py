@@ -252,6 +252,7 @@ def test_a_map_without_an_ideal_rest_is_not_judged_exact(base: ebac.Scenario, wh
     assert small().unjudged == ""
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("ys", [(2e3, 4e3, 8e3), (1e3, 1e4, 1e5)])
 def test_every_label_of_a_wall_is_in_kilonewtons(ys: tuple[float, ...]) -> None:
     figure = plot_map(small(ys=ys))
@@ -265,6 +266,7 @@ def test_every_label_of_a_wall_is_in_kilonewtons(ys: tuple[float, ...]) -> None:
     assert all(float(text) == pytest.approx(1e-3 * place) for place, text in shown)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["hand-mass", "hand-stiffness"])
 def test_labels_of_a_logarithmic_axis_do_not_overlap_in_one_column(name: str) -> None:
     figure = plot_map(small(x=name, xs=AXES[name].values(9)))

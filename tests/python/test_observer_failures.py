@@ -241,8 +241,7 @@ def test_no_hand_that_a_search_finds_draws_more_than_the_reserve(
     assert 0.5e-3 < found.hands[0].energy_J < found.reserve
 
 
-@pytest.mark.parametrize("counts_per_turn", [12_000, 65_536])
-@pytest.mark.parametrize("condition", ["d1K10", "d2b2K20"])
+@pytest.mark.parametrize(("condition", "counts_per_turn"), [("d1K10", 12_000), ("d2b2K20", 65_536)])
 def test_a_finer_encoder_is_no_reason_to_fall_back(condition: str, counts_per_turn: int) -> None:
     """A force that jumps between two readings moved the estimate over counts, and 8 to 21 mJ were drawn."""
     device = BASE.device.replace(encoder=ebac.Encoder(counts_per_turn=counts_per_turn))

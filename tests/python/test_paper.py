@@ -101,6 +101,7 @@ def test_equations_agree_to_the_last_digits() -> None:
     assert values("eq9")["ticks in contact with eq. (9) unlimited"] > 10
 
 
+@pytest.mark.slow
 def test_eq3_holds_for_the_completed_law_within_its_reserve_only() -> None:
     holds = {claim.text.split(":")[0]: claim.holds for claim in find("eq3").claims}
     assert holds == {"eba": False, "eba-account": True, "ebac": True, "ebac-printed": False}

@@ -49,6 +49,7 @@ def test_ebac_is_good_with_a_noisy_sensor_as_well() -> None:
     )
 
 
+@pytest.mark.slow
 def test_a_figure_has_a_panel_for_each_stiffness(found: Shapes) -> None:
     figure = plot_shapes(found)
     assert len(figure.axes) == 3

@@ -69,6 +69,7 @@ def test_a_hand_that_turns_round_within_a_tick_draws_what_a_slower_one_cannot() 
     assert drawn[1] >= drawn[2] == pytest.approx(0, abs=1e-4)
 
 
+@pytest.mark.slow
 def test_the_command_names_the_rate() -> None:
     words = ["worst", "--family", "impact", "--evaluations", "40", "--pull-rate", "1000"]
     document = json.loads(CliRunner().invoke(app, [*words, "--json"]).stdout)

@@ -288,6 +288,7 @@ def test_the_network_is_shown_the_observers_estimate() -> None:
     assert np.ptp(blind.tail("force")) > 5 * np.ptp(seen.tail("force"))
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(sys.platform != "linux", reason="UDP of the library is Linux's")
 def test_two_sides_of_different_schemes_do_not_obey_each_other_and_say_so() -> None:
     command = [sys.executable, "-m", "ebac.cli", "teleop"]

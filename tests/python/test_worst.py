@@ -150,7 +150,7 @@ def test_a_hand_that_pulls_too_hard_does_not_count() -> None:
     assert free.measure(np.array([shares]))[0] > 0.1
 
 
-@pytest.mark.parametrize("name", FAMILIES)
+@pytest.mark.parametrize("name", ["impact", "press-and-go"])
 def test_a_run_is_as_long_as_asked(name: str) -> None:
     """But for a hand that lets go later."""
     usual, short, long = (
@@ -265,6 +265,7 @@ def test_the_worst_hand_is_written_so_that_it_can_be_replayed(tmp_path: Path) ->
     assert f"ebac wall --law ebac --scenario out/worst-{rows[0]['family']}.toml" in shown
 
 
+@pytest.mark.slow
 def test_several_laws_are_each_searched_with_the_same_seed(tmp_path: Path) -> None:
     words = ("--family", "impact,tapping", "--evaluations", 40, "--law", "eba,ebac", "--out", "out")
     shown = " ".join(command(*words).stdout.split())

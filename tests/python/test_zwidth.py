@@ -234,6 +234,7 @@ def test_a_border_says_what_it_ends_by(found: ZWidth) -> None:
     assert low.share("direct", 0) == 1
 
 
+@pytest.mark.slow
 def test_a_mean_says_where_the_search_ended_and_where_no_wall_was_held(found: ZWidth) -> None:
     note = "A wall damping at which a law holds no wall counts as 0 N/m."
     limits = {name: np.array([[[1e5, 3e4]]]) for name in CRITERIA}
@@ -378,6 +379,7 @@ def test_a_damping_at_which_a_law_holds_no_wall_has_an_open_mark_at_the_lower_ed
     )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("held", [0.0, 1.0])
 def test_one_column_labels_every_decade_and_heads_its_panels_closely(
     held: float, found: ZWidth
