@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "ebac/control/direct.hpp"
-#include "ebac/loop/clock.hpp"
+#include "ebac/loop/virtual_clock.hpp"
 #include "ebac/loop/loop.hpp"
 #include "ebac/simulated_drives/exchange_benchmark.hpp"
 #include "scripted_drives.hpp"

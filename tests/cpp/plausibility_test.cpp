@@ -9,7 +9,7 @@
 
 #include "designed_law.hpp"
 #include "ebac/control/per_axis.hpp"
-#include "ebac/loop/clock.hpp"
+#include "ebac/loop/virtual_clock.hpp"
 #include "ebac/sim/any_law.hpp"
 #include "ebac/sim/simulate.hpp"
 #include "rounds.hpp"

@@ -10,7 +10,7 @@
 #include <tuple>
 #include <utility>
 
-#include "ebac/loop/clock.hpp"
+#include "ebac/loop/virtual_clock.hpp"
 #include "ebac/loop/loop.hpp"
 #include "ebac/simulated_drives/can_test_bench.hpp"
 
