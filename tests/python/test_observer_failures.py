@@ -253,3 +253,22 @@ def test_a_finer_encoder_is_no_reason_to_fall_back(condition: str, counts_per_tu
     use = ebac.observer_use(found.trace())
     assert use is not None
     assert use.trusted > 0.9
+
+
+def test_a_device_that_friction_holds_does_not_contradict_the_model() -> None:
+    """At a reversal the estimate slid on, by the friction that it did not count with, and the law fell back."""
+    device = BASE.device.replace(mechanics=ebac.Mechanics(coulomb=0.3))
+    swing = ebac.Sine(centre=0.01 + 8 / 500, amplitude=6 / 500, frequency=1.0)
+    trace = ebac.simulate(
+        BASE.replace(
+            device=device,
+            hand=ebac.Hand(mass=0.3, damping=6.0, stiffness=500.0, path=[swing]),
+            environment=ebac.Wall(stiffness=20e3, position=0.01),
+            seconds=20.0,
+            seed=2,
+        ),
+        "ebac",
+    )
+    assert not trace["est.fallback"].any()
+    depth = trace.axis("true.x")[5000:] - 0.01
+    assert 0 < depth.min() < depth.max() < 0.8e-3

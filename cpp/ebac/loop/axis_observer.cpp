@@ -18,12 +18,9 @@ void AxisObserver::set_tick(double dt) EBAC_RT {
   in_motion_ = ObserverGains::of(0.4 * w, 0.5, dt);
   at_rest_ = ObserverGains::of(0.6 * within_ * w, 0.1, dt);
   resting_ = std::max(0.0, 1 - dt / kRests);
-  const double kept =
-      std::exp(-dt / (kCalm * std::sqrt(params_.force_noise / ObserverParams::kLeastNoise)));
-  calming_ = 1 - kept * kept;
-  trending_ = (1 - kept) * (1 - kept) / dt;
-  roughening_ = dt / (kRough + dt);
-  averaging_ = dt / (kBends + dt);
+  noise_.set_tick(dt);
+  trend_.set_tick(dt, params_.force_noise / ObserverParams::kLeastNoise);
+  holding_ = dt / (kHolds + dt);
   forget_ = dt / (kMemory + dt);
 }
 

@@ -7,10 +7,12 @@
 #include "ebac/control/commands_in_flight.hpp"
 #include "ebac/core/realtime.hpp"
 #include "ebac/loop/force_history.hpp"
+#include "ebac/loop/force_trend.hpp"
 #include "ebac/loop/motor_force.hpp"
 #include "ebac/loop/motor_strength.hpp"
 #include "ebac/loop/observer_gains.hpp"
 #include "ebac/loop/observer_params.hpp"
+#include "ebac/loop/sensor_noise.hpp"
 
 namespace ebac {
 
@@ -41,7 +43,8 @@ namespace ebac {
 /// used in motion, 0.3 at rest, where an edge of a count would be felt as a click; D is slower than x
 /// and u, by far so at rest. All of w is used where the force turns out to be noisier than declared, and
 /// where the readings go on contradicting the model: friction that holds the device is a force that D
-/// must learn, or x would rest at the end of its counts, with a velocity that is none. The prediction
+/// must learn, or x would rest at the end of its counts, with a velocity that is none. Where the reading stands
+/// for 20 ms while x is at that end, D learns it in 5 ms. The prediction
 /// takes the force of the hand to change as it did in the last 12 ms, and at rest without the noise it
 /// shows: a lag in that force of 1 N would be 4 m/s^2. v is kept within what two readings prove of it.
 ///
@@ -59,22 +62,23 @@ class AxisObserver {
         per_mass_(1 / mass_),
         motor_(params.current_lag),
         strength_(params.count),
+        noise_(params.force_noise),
         in_flight_(params.delay) {}
 
   /// At rest at `x` [m], with the hand's `force` [N] if it is more than noise. What else has held the device lets go
   /// now; seen through G, it fades.
   void start(double x, double force) EBAC_RT {
-    const double held = std::abs(force) > kHigh * params_.force_noise ? force : 0;
+    noise_ = SensorNoise(params_.force_noise);
+    const double held = noise_.exceeded_by(std::abs(force)) ? force : 0;
     x_ = reading_ = x;
-    pace_ = unread_ = astray_ = 0;
+    pace_ = unread_ = stands_ = astray_ = 0;
     u_ = v_ = 0;
     disturbance_ = weight_;
     motor_ = MotorForce(params_.current_lag, held + weight_);
-    measured_ = before_last_ = calm_ = held;
-    trend_ = contradicted_ = rough_ = 0;
+    measured_ = before_last_ = held;
+    trend_ = ForceTrend(held);
+    contradicted_ = 0;
     moving_ = 1;
-    bends_ = kHigh * params_.force_noise;
-    noise_ = params_.force_noise;
     old_ = false;
     in_flight_ = CommandsInFlight(params_.delay);
     records_ = {};
@@ -111,17 +115,21 @@ class AxisObserver {
     // The mean over the interval, of the parabola through the last three readings.
     const double force = (5 * measured + 8 * measured_ - before_last_) * (1.0 / 12) + disturbance_;
     const double bend = measured - 2 * measured_ + before_last_;
-    hear(std::abs(bend));
+    noise_.hear(std::abs(bend));
     before_last_ = measured_;
     measured_ = measured;
-    follow_hand(measured);
-    const double a = slowed(force - damping_ * u_ - motor, u_, dt) * per_mass_;
+    trend_.follow(measured, noise_.deviation());
+    const double pull = slowed(force - damping_ * u_ - motor, u_, dt);
+    const double a = pull * per_mass_;
     const double before = x_;
     x_ += (u_ + (0.5 * dt + motor_.sensor_lag()) * a) * dt;
     u_ += a * dt;
     unread_ += dt;
     const double reading = encoder ? encoder->value + v_ * encoder->age : reading_;
-    if (encoder) correct(reading);
+    if (encoder) {
+      correct(reading);
+      keep_place(reading, pull);
+    }
     moved_ = x_ - before;
     v_ = u_ + motor_.sensor_lag() * acceleration();
     if (encoder) keep_pace(reading);
@@ -138,10 +146,11 @@ class AxisObserver {
   Motion predict() const EBAC_RT {
     double x = x_, v = v_;
     LaggedForce motor = motor_.acts();
-    const double hand = calm_ + moving_ * (measured_ - calm_) + disturbance_;
+    const double calm = trend_.level();
+    const double hand = calm + moving_ * (measured_ - calm) + disturbance_;
     double ahead = params_.force_lag;
     const auto advance = [&](double force, double time) EBAC_RT {
-      const double grown = trend_ * (ahead + 0.5 * time);
+      const double grown = trend_.trend() * (ahead + 0.5 * time);
       const double a = slowed(hand + grown - damping_ * v - force, v, time) * per_mass_;
       x += (v + 0.5 * a * time) * time;
       v += a * time;
@@ -160,7 +169,7 @@ class AxisObserver {
   double disturbance() const EBAC_RT { return disturbance_; }
 
   /// Share of the last 0.1 s in which the measured force bent more than its declared noise does.
-  double rough() const EBAC_RT { return rough_; }
+  double rough() const EBAC_RT { return noise_.rough(); }
 
   /// Share of the last 50 ms in which the reading was more than 1.5 counts from where the model put it.
   double contradicted() const EBAC_RT { return contradicted_; }
@@ -170,22 +179,18 @@ class AxisObserver {
   // ripple, hands at rest and energy given out.
   static constexpr double kCell = 1.5;  // counts from the reading that x may have
   static constexpr double kDithered =
-      0.09;                                // 1, (w dt)^2 from which noise moves x over whole counts
+      0.09;  // 1, (w dt)^2 from which noise moves x over whole counts
+  static constexpr double kStands =
+      0.02;  // s, a reading that stands for so long is that of a held device
+  static constexpr double kHolds = 5e-3;   // s, in which D takes what would move it
   static constexpr double kMoving = 0.01;  // m/s, from here on the device moves
   static constexpr double kSlow = 2.5e-3;  // m/s, from here on a quiet sensor counts as any other
   static constexpr double kQuiet = 0.5;    // of the declared noise: less is a quiet sensor
   static constexpr double kRests = 0.05;   // s, until it counts as resting
-  static constexpr double kCalm = 12e-3;   // s, over which the hand's force is smoothed
-  static constexpr double kNoise = 1.5;    // standard deviations that smoothing takes away at most
-  static constexpr double kLoud = 10;    // standard deviations in a second difference, 4 of its own
-  static constexpr double kRough = 0.1;  // s, memory of such differences
-  static constexpr double kHigh = 4;     // standard deviations: a larger difference counts as this
-  static constexpr double kBends = 0.2;  // s, over which their sizes are averaged
-  static constexpr double kOfBends = 0.56;  // noise of that mean; 0.51 for one that is normal
-  static constexpr double kLeast = 0.2;     // of the share within a count, without noise
-  static constexpr double kMemory = 0.05;   // s, of the contradictions
-  static constexpr double kBears = 0.15;    // share of ticks that may contradict
-  static constexpr double kLearn = 2;       // from here to 1/2 more, all gains rise to those of w
+  static constexpr double kLeast = 0.2;    // of the share within a count, without noise
+  static constexpr double kMemory = 0.05;  // s, of the contradictions
+  static constexpr double kBears = 0.15;   // share of ticks that may contradict
+  static constexpr double kLearn = 2;      // from here to 1/2 more, all gains rise to those of w
   static constexpr double kPatience = 3.5e-3;  // s, half a period of a cable's resonance of 140 Hz
 
   double acceleration() const EBAC_RT {
@@ -204,31 +209,13 @@ class AxisObserver {
   /// With the first force after that, D is what it was before.
   void doubt(bool old, double measured) EBAC_RT {
     if (old && !old_) undoubted_ = disturbance_;
-    if (old) rough_ = 1;
+    if (old) noise_.doubt();
     if (old_ && !old) {
       disturbance_ = undoubted_;
-      measured_ = before_last_ = calm_ = measured;
-      trend_ = 0;
+      measured_ = before_last_ = measured;
+      trend_.begin(measured);
     }
     old_ = old;
-  }
-
-  /// The noise of the measured force, from the size of its second difference: at most as much as declared. None at all
-  /// is no measure of it: a sensor that repeats its last reading is not quiet.
-  void hear(double bend) EBAC_RT {
-    const double declared = params_.force_noise;
-    rough_ += ((bend > kLoud * declared ? 1.0 : 0.0) - rough_) * roughening_;
-    if (bend != 0) bends_ += (std::min(bend, kHigh * declared) - bends_) * averaging_;
-    noise_ = std::min(kOfBends * bends_, declared);
-  }
-
-  /// Level and trend of the hand's force, a second-order filter that follows a ramp without lag and
-  /// takes away no more than noise can be.
-  void follow_hand(double measured) EBAC_RT {
-    const double off = measured - calm_ - trend_ * dt_;
-    const double noise = kNoise * noise_;
-    trend_ += trending_ * off;
-    calm_ = measured - std::clamp((1 - calming_) * off, -noise, noise);
   }
 
   void correct(double reading) EBAC_RT {
@@ -236,10 +223,10 @@ class AxisObserver {
     const double off = reading - x_;
     const double within = std::clamp(off, -count, count);
     if (learns_ && !old_) strength_.learn(within, v_, dt_);
-    const double noisy = std::clamp(2.5 * rough_ - 0.5, 0.0, 1.0);
+    const double noisy = std::clamp(2.5 * noise_.rough() - 0.5, 0.0, 1.0);
     contradicted_ += ((std::abs(off) > 1.5 * count ? 1.0 : 0.0) - contradicted_) * forget_;
     moving_ = std::max(std::min(1.0, std::abs(u_) * (1 / kMoving)), moving_ * resting_);
-    double share = noise_ * per_noise_;
+    double share = noise_.deviation() * per_noise_;
     if (share < kQuiet)
       share = std::max(share, std::clamp(moving_ * (kMoving / kSlow), kLeast, 1.0));
     share *= within_;
@@ -250,7 +237,18 @@ class AxisObserver {
     x_ += gain.x * innovation;
     u_ += gain.v * innovation;
     disturbance_ += gain.d * innovation * mass_;
-    x_ = std::clamp(x_, reading - kCell * count, reading + kCell * count);
+  }
+
+  /// Keeps x by the reading. A device whose reading stands while the model would `pull` it on [N] is held, as by more
+  /// friction than is known: the model stops, and D takes the pull.
+  void keep_place(double reading, double pull) EBAC_RT {
+    const double room = kCell * params_.count;
+    const double beyond = x_ - std::clamp(x_, reading - room, reading + room);
+    x_ -= beyond;
+    stands_ = std::abs(reading - reading_) < 0.5 * params_.count ? stands_ + unread_ : 0;
+    if (stands_ < kStands || beyond * u_ <= 0) return;
+    if (pull * u_ > 0) disturbance_ -= holding_ * pull;
+    u_ = 0;
   }
 
   /// Two readings prove the mean velocity between them within a count; now, it may be off by half of
@@ -282,6 +280,8 @@ class AxisObserver {
   double damping_ = 0;  // N s/m
   MotorForce motor_;
   MotorStrength strength_;
+  SensorNoise noise_;
+  ForceTrend trend_;
   CommandsInFlight in_flight_;
   double x_ = 0;            // m
   double moved_ = 0;        // m
@@ -296,23 +296,18 @@ class AxisObserver {
   double reading_ = 0;  // m, the last one
   double pace_ = 0;     // m/s, mean velocity between the last two
   double unread_ = 0;   // s, since the last one
+  double stands_ = 0;   // s, for which the reading has not changed
   double astray_ = 0;   // s, that v was beyond what the readings prove, with the sign of its error
   double dt_ = 0;       // s, argument of the last set_tick
   double per_dt_ = 0;   // 1/s
-  double calm_ = 0;     // N, the force of the hand without its noise
-  double trend_ = 0;    // N/s, its change
   double undoubted_ = 0;  // N, the disturbance when the force began to be old
   bool old_ = false;      // the force
-  double rough_ = 0;      // share of ticks with more noise than declared; 1 in doubt
-  double bends_ = 0;      // N, mean size of second differences of the measured force
-  double noise_ = 0;      // N, standard deviation of the measured force
   double moving_ = 1;     // 1 in motion, 0 at rest
   ObserverGains in_motion_{}, at_rest_{}, full_{};
-  double within_ = 1;                                  // share of an innovation within a count
-  double per_noise_ = 1;                               // 1/N, of the declared noise
-  double resting_ = 0, calming_ = 0, roughening_ = 0;  // share kept, share taken, per tick
-  double averaging_ = 0;                               // share taken
-  double trending_ = 0;                                // 1/s
+  double within_ = 1;     // share of an innovation within a count
+  double per_noise_ = 1;  // 1/N, of the declared noise
+  double resting_ = 0;    // share kept per tick
+  double holding_ = 0;    // share taken per tick
   double forget_ = 0;
 };
 
