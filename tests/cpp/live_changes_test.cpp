@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "ebac/control/ebac.hpp"
+#include "ebac/control/force_feedback.hpp"
 #include "ebac/control/lag_compensator.hpp"
 #include "ebac/control/law_type.hpp"
 #include "ebac/control/per_axis.hpp"
@@ -62,11 +64,46 @@ TEST(PerAxis, AnotherLawTakesOverWithoutAStepAndItsForceFadesIn) {
   EXPECT_NEAR(before, 2, 1e-9);
 }
 
+TEST(ForceFeedback, ADerivativeThatIsTurnedOnBeginsWithoutAKick) {
+  ForceFeedback loop(0.1, 0, 5e-3);
+  for (int i = 0; i < 10; ++i) loop.step(2, 0, 1e-3);
+  loop.retune(0.1, 0.01, 5e-3);
+  EXPECT_DOUBLE_EQ(loop.step(2, 0, 1e-3), 0.2);
+  EXPECT_GT(loop.step(2.1, 0, 1e-3), 0.21);
+}
+
 TEST(PerAxis, GainsAloneActAtOnceAndKeepTheMemory) {
   Pressing pressing(tca());
   pressing.meet(5);
   pressing.adopt(tca(2));
   EXPECT_DOUBLE_EQ(pressing.meet(5), 2);
+}
+
+TEST(PerAxis, AnotherLawOfSeveralAxesBeginsWithItsReserveAndNoMore) {
+  const auto law = [](double reserve) { return any_law(Ebac({.reserve = reserve})); };
+  All laws(law(0.01));
+  std::array<Axis, 2> axes{};
+  ContactForce contact = ContactForce::straight({5, 5, 0});
+  contact.shared = true;
+  const auto energy = [&](std::size_t i) {
+    return laws.state_table().find("energy")->number(laws.state(i));
+  };
+  const auto tick = [&](double dx) {
+    for (Axis& axis : axes) {
+      axis.port.dx = dx;
+      axis.port.x += dx;
+      axis.port.work += axis.port.f_applied * dx;
+      axis.port.dt = 1e-3;
+      axis.port.f_env = axis.port.f_applied = 5;
+    }
+    laws.step(std::span(axes), contact);
+  };
+  for (int i = 0; i < 20; ++i) tick(-5e-5);  // the port gives out energy
+  ASSERT_LT(energy(0), 0.01);
+  auto next = All::replacement(law(0.02));
+  laws.adopt(next);
+  tick(0);
+  for (std::size_t i = 0; i < 2; ++i) EXPECT_LE(energy(i), 0.02 + 1e-12) << i;
 }
 
 TEST(PerAxis, AWorldTenTimesAsStiffComesLittleByLittle) {

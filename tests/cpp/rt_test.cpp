@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <fstream>
 #include <memory>
 #include <stdexcept>
+#include <string>
 #include <thread>
 
 #include "ebac/control/direct.hpp"
@@ -97,6 +99,36 @@ TEST(Thread, EnforceRunsNothingWithoutItAll) {
     EXPECT_NE(std::string(error.what()).find("CPU 1023"), std::string::npos) << error.what();
   }
   EXPECT_EQ(runs, 0);
+}
+
+TEST(Grants, AStackLargerThanThatOfTheThreadIsRefusedNotTouched) {
+  std::thread([] {
+    EXPECT_TRUE(touch_stack(4096).granted);
+    const Grant grant = touch_stack(1 << 30);
+    EXPECT_FALSE(grant.granted);
+    EXPECT_NE(grant.remedy.find("choose at most"), std::string::npos) << grant.remedy;
+  }).join();
+}
+
+TEST(Grants, MemoryThatIsAskedForAndReleasedAtOnceStaysLocked) {
+  const Grant first = ask_memory();
+  if (!first.granted) GTEST_SKIP() << first.why;
+  const auto locked = [] {
+    std::ifstream status("/proc/self/status");
+    for (std::string line; std::getline(status, line);) {
+      if (line.starts_with("VmLck:")) return std::stol(line.substr(6));
+    }
+    return 0L;
+  };
+  release_memory();
+  for (int i = 0; i < 60; ++i) {
+    ask_memory();
+    std::thread other(release_memory);
+    ask_memory();
+    other.join();
+    EXPECT_GT(locked(), 0) << i;
+    release_memory();
+  }
 }
 
 TEST(Thread, OffAsksForNothing) {

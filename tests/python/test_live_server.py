@@ -20,6 +20,7 @@ from typer.testing import CliRunner
 
 import ebac
 from ebac.cli import app
+from ebac.live.frames import Frames
 from ebac.live.gate import Gate
 from ebac.live.messages import MalformedError, read
 from ebac.live.serving import serve
@@ -156,6 +157,27 @@ def test_a_page_shows_the_bodies_that_an_engine_computes(tmp_path: Path) -> None
             ask(lambda server=server: opened(server))
     assert len(shapes[0][0]) > 1000
     assert shapes[1:] == [shapes[0], [[], []]]
+
+
+def test_a_frame_that_fails_does_not_end_the_picture(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    good, calls = Frames.frame, []
+
+    def sometimes(self: Frames) -> dict[str, Any]:
+        calls.append(0)
+        if len(calls) == 5:
+            raise IndexError("a row that has gone")
+        return good(self)
+
+    async def watched(server: Any) -> None:
+        async with socket(server) as page:
+            assert "a row that has gone" in (await until(page, "error"))["text"]
+            await until(page, "frame")
+
+    monkeypatch.setattr(Frames, "frame", sometimes)
+    with serve(virtual=True, folder=tmp_path) as server:
+        ask(lambda: watched(server))
 
 
 @pytest.mark.slow

@@ -313,6 +313,22 @@ def test_canopen_asks_by_lss_who_it_is_and_gives_it_another_id(
     assert drive.node == 9
 
 
+def test_a_reset_forgets_half_an_identification(drive: SimulatedDrive) -> None:
+    def ask(*numbers: tuple[int, int]) -> list[int]:
+        drive.take()
+        for command, number in numbers:
+            drive.receive(0x7E5, bytes([command]) + number.to_bytes(4, "little") + bytes(3))
+        return [cob for cob, _ in drive.take()]
+
+    vendor, product, revision, serial = IDENTITY
+    first = [(0x46, vendor), (0x47, product)]
+    rest = [(0x48, revision), (0x49, revision), (0x4A, serial), (0x4B, serial)]
+    assert ask(*first, *rest) == [0x7E4]
+    ask(*first)
+    drive.receive(0, bytes([0x82, 3]))
+    assert ask(*rest) == []
+
+
 def test_canopen_finds_it_by_fastscan(drive: SimulatedDrive) -> None:
     """A bit of which nothing is heard is a one: what answers stands in the queue before canopen looks."""
     network = canopen.Network()

@@ -121,8 +121,12 @@ class CanopenDevice {
   void beat(double elapsed) EBAC_RT {
     since_beat_ += elapsed;
     if (setup_.own_node == 0 || since_beat_ < setup_.heartbeat_period) return;
-    since_beat_ = 0;
-    bus_->send(frame(heartbeat(static_cast<NodeId>(setup_.own_node)), {NodeLink::kOperational}));
+    if (bus_->send(
+            frame(heartbeat(static_cast<NodeId>(setup_.own_node)), {NodeLink::kOperational}))) {
+      since_beat_ = 0;
+      return;
+    }
+    for (NodeLink& link : links()) ++link.row().refused;  // the next tick tries again
   }
 
   /// Node guarding, for drives that watch no heartbeat (0x100C).
@@ -130,8 +134,9 @@ class CanopenDevice {
     since_guard_ += elapsed;
     if (setup_.guard_period <= 0 || since_guard_ < setup_.guard_period) return;
     since_guard_ = 0;
-    for (const NodeLink& link : links()) {
-      bus_->send({.id = heartbeat(link.node()), .size = 1, .remote = true});
+    for (NodeLink& link : links()) {
+      if (!bus_->send({.id = heartbeat(link.node()), .size = 1, .remote = true}))
+        ++link.row().refused;
     }
   }
 

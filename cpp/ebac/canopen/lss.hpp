@@ -38,11 +38,7 @@ class LssSlave {
   /// The node id that a reset of the communication brings, or 0 for the present one.
   NodeId pending() const EBAC_RT { return pending_; }
   /// A reset of the communication: the node waits as before.
-  void reset() EBAC_RT {
-    configuring_ = false;
-    pending_ = 0;
-    matched_ = 0;
-  }
+  void reset() EBAC_RT { *this = {}; }
 
  private:
   static bool said(Frame& reply, std::uint8_t command) EBAC_RT {

@@ -13,7 +13,7 @@ namespace ebac {
 
 /// The energy-bounding algorithm of Kim and Ryu, eq. (8), (9), alone: the storage F^2/(2c) never
 /// grows by more than port work and damping (E). Quiet on any wall and too soft by design, because
-/// its stiffness tends to c = 2 b / ((1 + 2 d) T).
+/// its stiffness tends to c = 2 b / ((1 + 2 d) T), with the longest T where there is jitter.
 ///
 /// The bound is proven without delay, lag and encoder; with them c is reduced and nothing is proven.
 /// `EbaAccount` adds an account that holds with all three.

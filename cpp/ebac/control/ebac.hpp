@@ -47,7 +47,7 @@ class Ebac {
   double step(const Port& port) EBAC_RT {
     if (!(port.dt > 0)) return begin(port);
     if (port.dt != dt_) set_tick(port.dt);
-    if (port.est.weight != weight_) shift(port);
+    if (port.est.weight != weight_) hand_over(port);
     if (shared_.ledger.owed() > 0) pay(port);
     shared_.watch_hand(port);
     shared_.state.clamped = false;
@@ -143,7 +143,7 @@ class Ebac {
 
   /// The observer comes or goes: what takes over starts where the other is. While it comes, the world is met
   /// elsewhere in every tick. The encoder's part needs a larger reserve.
-  void shift(const Port& port) EBAC_RT {
+  void hand_over(const Port& port) EBAC_RT {
     const double weight = port.est.weight;
     if (weight_ >= 1 && weight < 1) encoder_.take_over(port, shared_.params);
     if (weight_ < 1 && weight >= weight_) observer_.forget();

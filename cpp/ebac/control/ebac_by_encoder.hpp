@@ -23,7 +23,8 @@ class EbacByEncoder {
  public:
   EbacByEncoder(const EbacParams& params, const Timing& timing) EBAC_RT
       : show_(params.mass, params.count, params.current_lag, timing, params.resonance),
-        recovery_((params.heaviest_hand + params.mass) * kPace / show_.damping, show_.stiffness),
+        recovery_(Recovery::time(params.heaviest_hand + params.mass, show_.damping),
+                  show_.stiffness),
         loop_(params.kp, params.kd, params.filter),
         sub_count_(params.count),
         damper_(show_),
@@ -111,7 +112,6 @@ class EbacByEncoder {
 
  private:
   // Chosen on a grid of 60 hands and 36 cells of delay, damping and stiffness; `ebac study` runs it.
-  static constexpr double kPace = 2.2;    // recovery against what B_v damps, for the heaviest hand
   static constexpr double kFloor = 0.5;   // of c_h: slope that continuity always allows
   static constexpr double kYield = 0.01;  // s, F_d follows a command the guard holds back
   static constexpr int kWindow = 16;      // samples, velocity the guard counts with
@@ -130,13 +130,14 @@ class EbacByEncoder {
     return port.est.fallback == static_cast<int>(Fallback::kAccount);
   }
 
-  /// This way to a command needs more than the observer's, and lends nothing more while that one comes back.
+  /// On the encoder alone the account needs a larger reserve. While the estimate fades in, nothing is added.
   static void lend(const Port& port, EbacShared& shared) EBAC_RT {
     if (port.est.fallback == static_cast<int>(Fallback::kNone)) return;
     shared.ledger.lend(at_rest(port) ? shared.reserve_at_rest() : shared.params.reserve);
   }
 
-  /// Eq. (2), without the force loop while the sensor is stale or reports a failure.
+  /// Eq. (2), without the force loop while the observer finds the sensor stale or failing. Without an observer it is the
+  /// limits of the loop that end a run whose sensor does.
   double feedback(double desired, const Port& port) EBAC_RT {
     const auto fallback = static_cast<Fallback>(port.est.fallback);
     if (fallback != Fallback::kForceStale && fallback != Fallback::kForceStatus) {

@@ -14,14 +14,14 @@ class ForceFeedback {
 
   double step(double desired, double measured, double dt) EBAC_RT {
     const double error = desired - measured;
-    if (kd_ != 0 && dt > 0) {
-      rate_ += ((error - error_) / dt - rate_) * dt / (filter_ + dt);
+    if (dt > 0) {
+      if (kd_ != 0) rate_ += ((error - error_) / dt - rate_) * dt / (filter_ + dt);
       error_ = error;
     }
     return kp_ * error + kd_ * rate_;
   }
   void retune(double kp, double kd, double filter) EBAC_RT {
-    if (kd_ == 0 && kd != 0) reset();  // nothing was followed until now
+    if (kd_ == 0) rate_ = 0;  // none was followed until now
     kp_ = kp;
     kd_ = kd;
     filter_ = filter;

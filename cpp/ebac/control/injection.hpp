@@ -75,10 +75,11 @@ struct Injection {
     return std::max(0.0, kVelocityTime - timing.dt);
   }
 
+  static constexpr double kNoCount = 1e-12;  // m: of a velocity that is not read from counts
+
  private:
   static constexpr double kVelocityTime = 1e-3;  // s
-  static constexpr double kFree = 1.5;      // of a resonance with the handle fixed: with it free
-  static constexpr double kNoCount = 1e-9;  // m: a velocity that is not read from counts
+  static constexpr double kFree = 1.5;  // of a resonance with the handle fixed: with it free
 
   /// Whether the delay turns a damper at the resonance by a quarter and more, so that it drives it. A
   /// velocity of readings is half a tick late; that of the observer is predicted.

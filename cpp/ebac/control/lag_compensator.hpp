@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "ebac/control/contact_estimator.hpp"
+#include "ebac/control/ebac_params.hpp"
 #include "ebac/control/injection.hpp"
 #include "ebac/control/recovery.hpp"
 #include "ebac/core/controller.hpp"
@@ -24,7 +25,7 @@ namespace ebac {
 /// On a spring wall F_e = K x with K >= c_h this is F_d/F_e = (1 + tau s c_h/K)/(1 + tau s): gain 1
 /// at rest, c_h/K in fast motion, whatever K is. On a wall softer than c_h it is the wall itself.
 /// tau = T_r max(K/c_h - 1, 1/4), with K the slope seen in this contact, keeps the corner of the
-/// zero below the bandwidth on any wall. c_h and B_v are those of `Ebac`, and so is T_r.
+/// zero below the bandwidth on any wall. c_h, B_v and T_r are those of `Ebac` where no resonance is declared.
 ///
 /// Known weakness: no account, no bound and no guard: nothing limits the energy it gives out.
 class LagCompensator {
@@ -42,14 +43,13 @@ class LagCompensator {
     double peak_force = 42.4;       // N
 
     static Params design(const DeviceFacts& facts, const Timing& timing) {
-      constexpr double kPace = 2.2;          // as in Ebac
-      constexpr double kHeaviestHand = 1.5;  // kg, as in Ebac
       const Injection show(facts.mass, facts.count, facts.current_lag, timing);
-      return {.stiffness = show.stiffness,
-              .virtual_damping = show.damping,
-              .recovery_time = kPace * (kHeaviestHand + facts.mass) / show.damping,
-              .count = facts.count,
-              .peak_force = facts.peak_force};
+      return {
+          .stiffness = show.stiffness,
+          .virtual_damping = show.damping,
+          .recovery_time = Recovery::time(EbacParams{}.heaviest_hand + facts.mass, show.damping),
+          .count = facts.count,
+          .peak_force = facts.peak_force};
     }
     static constexpr auto fields() {
       using F = Field<Params>;

@@ -33,8 +33,8 @@ class ObservedForce {
  public:
   /// Without a damper where `injection` is off.
   ObservedForce(const EbacParams& law, const Timing& timing) EBAC_RT
-      : show_(law.mass, kNoCount, law.current_lag + kSpare * timing.dt, timing, law.resonance,
-              kPhaseLag),
+      : show_(law.mass, Injection::kNoCount, law.current_lag + kSpare * timing.dt, timing,
+              law.resonance, kPhaseLag),
         dynamic_(law.fast_stiffness, law.count),
         half_period_(show_.half_period),
         damping_(law.injection ? show_.damping : 0.0),
@@ -94,6 +94,7 @@ class ObservedForce {
     damping_ = next.damping_;
     stiffest_ = next.stiffest_;
     heaviest_ = next.heaviest_;
+    if (slope_.value() > 0) know_slope();
   }
 
   double shown() const EBAC_RT { return shown_; }          // N, of the world
@@ -112,7 +113,6 @@ class ObservedForce {
   static constexpr double kPhaseLag = 0.55;  // rad of delay at w
   static constexpr double kMost = 1.5;       // of B_v, with the world's damping
   static constexpr double kSpare = 0.3;      // ticks of delay, for facts that are wrong
-  static constexpr double kNoCount = 1e-12;  // m: the velocity has no noise of counts
   static constexpr double kLeast = 0.02;     // counts: a smaller motion shows no slope
 
   /// The estimate that fades in or out is not where the world was met.

@@ -74,6 +74,7 @@ class PerAxis : public Replaceable<Law> {
   {
     if (laws_[0].same_but_gains(next[0])) return retune(next[0]);
     std::swap(laws_, next);
+    account_ = {};  // of those that went
     take_over_.law();
   }
   /// Another world takes over; `before` and `now` are its forces at the place of the last tick.

@@ -88,6 +88,8 @@ class VirtualCoupling {
     state_.clamped = command != port.f_env;
     return command;
   }
+  /// The force of the last tick has changed by `change` [N] without a motion.
+  void shift(double change) EBAC_RT { contact_.shift(change); }
   /// The world has become `by` times as stiff without a motion.
   void scale(double by) EBAC_RT { contact_.scale(by); }
   void retune(const VirtualCoupling& next) EBAC_RT { params_ = next.params_; }

@@ -16,8 +16,7 @@
 namespace ebac {
 
 /// The last stage before the drives: limits each current, reports the reason, and finds conditions
-/// of the device that must end the run. `watch` is called before the currents are known, `limit`
-/// last.
+/// of the device that must end the run. `watch` is called after the law, `limit` last.
 class SafetyLimiter {
  public:
   /// Columns of a trace, per axis.

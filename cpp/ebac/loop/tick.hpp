@@ -85,7 +85,7 @@ inline Fault judge(const Reading& reading, std::span<const Axis> axes) EBAC_RT {
   return reading.fault != Fault::kNone ? reading.fault : first_fault(axes);
 }
 
-/// One tick of the loop. Commands computed here act `delay` ticks later, in simulation and on the
+/// One tick without limits, pauses and a row, as a sweep and a gastroscopy take it; `Loop` has all of them. Commands computed here act `delay` ticks later, in simulation and on the
 /// bus alike.
 template <AxesController Law, Device D, std::size_t N>
 void tick(SignalChain& chain, Law& law, D& device, const Instant& now, Sample& s,

@@ -88,8 +88,10 @@ class Trace {
 
   /// The sample of row `i`; axes beyond the ones in use are zero.
   Sample sample(std::size_t i) const {
+    std::vector<std::byte> row(row_);
+    copy(i, row);
     Sample s;
-    std::memcpy(static_cast<void*>(&s), data_.data() + (ring_ ? slot(i) : i * words()),
+    std::memcpy(static_cast<void*>(&s), row.data(),
                 offsetof(Sample, axis) + sizeof(Axis) * static_cast<std::size_t>(axes_));
     return s;
   }

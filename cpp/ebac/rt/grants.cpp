@@ -7,10 +7,12 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
-#include <atomic>
 #include <cerrno>
+#include <cstdint>
 #include <cstring>
 #include <fstream>
+#include <limits>
+#include <mutex>
 #include <string>
 
 namespace ebac::rt {
@@ -54,7 +56,24 @@ std::string cpu_list(const cpu_set_t& set) {
   return text;
 }
 
-std::atomic<int> holders{0};  // threads that have the memory locked
+std::mutex locking;  // of the memory, and of the count of those that hold it
+int holders = 0;
+
+/// What is left of the stack of this thread [bytes], but for a margin; all of it where the system does not tell.
+std::size_t stack_left() {
+  constexpr std::size_t kMargin = 65536;
+  pthread_attr_t attributes;
+  if (pthread_getattr_np(pthread_self(), &attributes) != 0) {
+    return std::numeric_limits<std::size_t>::max();
+  }
+  void* lowest = nullptr;
+  std::size_t size = 0;
+  pthread_attr_getstack(&attributes, &lowest, &size);
+  pthread_attr_destroy(&attributes);
+  const auto here = reinterpret_cast<std::uintptr_t>(&attributes);
+  const std::size_t left = here - reinterpret_cast<std::uintptr_t>(lowest);
+  return left > kMargin ? left - kMargin : 0;
+}
 
 }  // namespace
 
@@ -93,6 +112,7 @@ Grant ask_memory() {
   if (limit != "unlimited" && !has_capability(kCapIpcLock)) {
     return {"memory", asked, false, "the limit of locked memory is " + limit + " bytes", remedy};
   }
+  const std::scoped_lock one_by_one(locking);
   if (mlockall(MCL_CURRENT | MCL_FUTURE) != 0) {
     return {"memory", asked, false, std::strerror(errno), remedy};
   }
@@ -101,15 +121,22 @@ Grant ask_memory() {
 }
 
 void release_memory() noexcept {
+  const std::scoped_lock one_by_one(locking);
   if (--holders == 0) munlockall();
 }
 
 Grant touch_stack(int bytes) {
   const auto size = static_cast<std::size_t>(bytes);
+  const std::string asked = std::to_string(bytes) + " bytes touched";
+  if (const std::size_t room = stack_left(); size > room) {
+    return {"stack", asked, false,
+            "the thread has " + std::to_string(room) + " bytes left beside a margin",
+            "choose at most " + std::to_string(room) + ", or start with a larger one: ulimit -s"};
+  }
   auto* memory = static_cast<volatile char*>(alloca(size + 1));
   const auto page = static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
   for (std::size_t i = 0; i < size; i += page) memory[i] = 0;
-  return {"stack", std::to_string(bytes) + " bytes touched", true, "", ""};
+  return {"stack", asked, true, "", ""};
 }
 
 }  // namespace ebac::rt

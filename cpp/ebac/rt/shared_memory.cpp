@@ -19,14 +19,21 @@ namespace {
   throw std::system_error(errno, std::generic_category(), what);
 }
 
+/// Closes a descriptor, and refuses for what went wrong before.
+[[noreturn]] void refuse_closing(int descriptor, const char* what) {
+  const int error = errno;
+  close(descriptor);
+  errno = error;
+  refuse(what);
+}
+
 }  // namespace
 
 SharedMemory::SharedMemory(std::size_t bytes)
     : bytes_(bytes), descriptor_(memfd_create("ebac", MFD_CLOEXEC)) {
   if (descriptor_ < 0) refuse("memory to share");
   if (ftruncate(descriptor_, static_cast<off_t>(bytes)) != 0) {
-    close(descriptor_);
-    refuse("memory to share");
+    refuse_closing(descriptor_, "memory to share");
   }
   map();
 }
@@ -36,7 +43,8 @@ SharedMemory::SharedMemory(int descriptor, std::size_t bytes)
   const std::string name = "memory of another process at descriptor " + std::to_string(descriptor);
   if (descriptor_ < 0) refuse(name.c_str());
   struct stat facts{};
-  if (fstat(descriptor_, &facts) != 0 || facts.st_size != static_cast<off_t>(bytes)) {
+  if (fstat(descriptor_, &facts) != 0) refuse_closing(descriptor_, name.c_str());
+  if (facts.st_size != static_cast<off_t>(bytes)) {
     close(descriptor_);
     throw std::invalid_argument(name + ": has not the " + std::to_string(bytes) +
                                 " bytes expected; both must be of the same version");
@@ -55,10 +63,9 @@ SharedMemory SharedMemory::named(const std::string& name, std::size_t bytes) {
   if (descriptor < 0) refuse(what.c_str());
   if (ftruncate(descriptor, static_cast<off_t>(bytes)) != 0) {
     const int error = errno;
-    close(descriptor);
     remove(name);
     errno = error;
-    refuse(what.c_str());
+    refuse_closing(descriptor, what.c_str());
   }
   return {name, descriptor, bytes};
 }
@@ -69,9 +76,8 @@ SharedMemory SharedMemory::opened(const std::string& name) {
   if (descriptor < 0) refuse(what.c_str());
   struct stat facts{};
   if (fstat(descriptor, &facts) != 0 || facts.st_size <= 0) {
-    close(descriptor);
     errno = ENODATA;
-    refuse(what.c_str());
+    refuse_closing(descriptor, what.c_str());
   }
   return {{}, descriptor, static_cast<std::size_t>(facts.st_size)};
 }

@@ -98,8 +98,8 @@ def _as_ctrl_c() -> Iterator[None]:
 
 
 @contextmanager
-def resumable(what: str, folder: Path | None) -> Iterator[None]:
-    """Say on Ctrl-C how `what`, which keeps its finished runs in a folder, goes on."""
+def resumable(folder: Path | None) -> Iterator[None]:
+    """Say on Ctrl-C how a command that keeps its finished runs in a folder goes on."""
 
     def again() -> str:
         if folder is None:

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from ebac._util.wrong_calls import plain_constructor
+from ebac.drives.objects import place
 
 #: Index of PDO parameters, and of what CiA 301 itself bounds: limits of a sheet are often wrong there.
 _COMMUNICATION = range(0x1000, 0x2000)
@@ -57,8 +58,8 @@ class SheetEntry:
 
     @property
     def where(self) -> str:
-        """Index and sub-index as people write them: 0x6040, 0x2383:12."""
-        return f"0x{self.index:04X}" + (f":{self.sub}" if self.sub else "")
+        """Index and sub-index as people write them."""
+        return place(self.index, self.sub)
 
     def row(self, node: int) -> Row:
         """Return it as the simulated drive takes it."""

@@ -21,6 +21,11 @@ PDOS, ENTRIES = 4, 8
 PDO_OFF = 1 << 31
 
 
+def place(index: int, sub: int) -> str:
+    """Return index and sub-index as people write them: 0x6040, 0x2383:12."""
+    return f"0x{index:04X}" + (f":{sub}" if sub else "")
+
+
 @plain_constructor
 @dataclass(frozen=True, kw_only=True)
 class Object:
@@ -54,8 +59,8 @@ class Object:
 
     @property
     def where(self) -> str:
-        """Index and sub-index as people write them: 0x6040, 0x2383:12."""
-        return f"0x{self.index:04X}" + (f":{self.sub}" if self.sub else "")
+        """Index and sub-index as people write them."""
+        return place(self.index, self.sub)
 
     @property
     def bits(self) -> int:

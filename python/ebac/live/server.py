@@ -87,7 +87,6 @@ class Server:
             ) from error
         del websockets
         self.session = session
-        self.frames_sent = 0
         self.malformed = 0
         self._frames = self._reader()
         self._pages = Pages(control=control)
@@ -292,8 +291,10 @@ class Server:
             if ran != self.session.running:  # ended by itself
                 ran = not ran
                 await self._send_state()
-            text = json.dumps(self._frames.frame())
-            self.frames_sent += 1
+            try:
+                text = json.dumps(self._frames.frame())
+            except Exception as error:  # the picture goes on with the next one
+                text = json.dumps({"kind": "error", "text": f"no picture: {error!r}"})
             await self._pages.send_frame(text)
 
     def __enter__(self) -> Self:

@@ -20,9 +20,9 @@ from ebac._util.wrong_calls import plain_constructor
 from ebac.logs import events
 from ebac.logs.about import About, versions
 from ebac.logs.layout import MESSAGE, Layout
+from ebac.logs.records import MAGIC
 from ebac.logs.summary import EVENTS, ROWS, Summary, described, record_bytes
 
-MAGIC = b"\x89MCAP0\r\n"
 _MESSAGE_HEAD = struct.Struct("<BQHIQQ")
 _INDEX_HEAD = struct.Struct("<BQHI")
 

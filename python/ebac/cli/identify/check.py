@@ -10,7 +10,7 @@ import typer
 from ebac.cli import interrupts, output
 
 if TYPE_CHECKING:
-    from ebac.identify.check import Check
+    pass
 
 
 class What(StrEnum):
@@ -108,7 +108,7 @@ def _intervals(
         return
     _table(rows)
     if what is What.ARM:
-        _say_arm(found, more)
+        _say_arm(more)
     output.say(f"A fit takes {1e3 * found.median_seconds():.0f} ms (median, all cores busy).")
     output.say("Simulated, not measured.", style="bold")
 
@@ -127,7 +127,7 @@ def _table(rows: list[dict[str, Any]]) -> None:
     output.show(grid)
 
 
-def _say_arm(found: Check, more: dict[str, Any]) -> None:
+def _say_arm(more: dict[str, Any]) -> None:
     output.say(
         f"Logs that do not determine M0, B0 and K0, by the truth: {more['silent_called']} of {more['silent_cases']} "
         f"called so; of those that do {more['telling_called']} of {more['telling_cases']}."

@@ -91,7 +91,7 @@ def _run(people: Any, given: dict[str, Any], folder: Path | None, *, quiet: bool
     from ebac.studies import ablation as run_ablation
 
     with (
-        interrupts.resumable("ablation", folder),
+        interrupts.resumable(folder),
         output.refusing(folder),
         output.counting("simulating", quiet=quiet) as progress,
     ):

@@ -127,7 +127,7 @@ def _run(
 
     kept = None if folder is None else folder / BUNDLES.format(name)
     with (
-        interrupts.resumable("map", folder),
+        interrupts.resumable(folder),
         output.refusing(folder),
         output.counting(f"mapping {name}", quiet=quiet) as progress,
     ):

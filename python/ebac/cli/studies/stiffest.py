@@ -110,7 +110,7 @@ def _run(
     from ebac.studies import stiffest as search
 
     with (
-        interrupts.resumable("search", folder),
+        interrupts.resumable(folder),
         output.refusing(folder),
         output.counting("simulating", quiet=quiet) as progress,
     ):

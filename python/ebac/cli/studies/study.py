@@ -111,7 +111,7 @@ def _run(
     from ebac.studies import study as run_study
 
     with (
-        interrupts.resumable("study", folder),
+        interrupts.resumable(folder),
         output.refusing(folder),
         output.counting("simulating", quiet=quiet) as progress,
     ):
