@@ -114,11 +114,11 @@ def test_a_target_acts_within_a_run_and_is_in_its_log(tmp_path: Path, until: Unt
             run.set_target(0.0)
     events = [e for e in ebac.logs.read(log).events if e.kind == "parameter"]
     assert [e.values for e in events] == [{"hand.target_0": 0.03}, {"hand.target_1": -0.02}]
-    assert "0.03 m, as before" in events[0].message
+    assert events[0].message == "hand target, axis 0: 0.03 m"
     first = int(np.searchsorted(trace["tick"], events[0].tick))
     assert np.abs(trace["x"][: first + 1, 0]).max() < 1e-3  # nothing before it was taken
     shown = CliRunner().invoke(app, ["log", "info", str(log)])
-    assert "hand target: 0.03 m" in " ".join(shown.output.split())
+    assert "hand target, axis 0: 0.03 m" in " ".join(shown.output.split())
 
 
 def test_a_hand_of_flesh_goes_where_it_wants(

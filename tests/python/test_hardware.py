@@ -96,6 +96,8 @@ def test_what_changes_while_it_runs_acts_and_is_in_the_log(
         until(run, lambda: run.state is ebac.LoopState.RUN and run.ticks >= 300)
         assert run.retune(share=0.5).share == 0.5  # type: ignore[attr-defined]
         assert run.change(stiffness=1e3).stiffness == 1e3  # type: ignore[union-attr]
+        with pytest.raises(ValueError, match=r"mm inside the wall, which would throw it out"):
+            run.change(position=-0.04)
         with pytest.raises(ValueError, match=r"share = 7: must lie in"):
             run.retune(share=7.0)
         with pytest.raises(ValueError, match=r"cannot change from .* while the loop runs"):

@@ -1,5 +1,6 @@
 """A recorded log as hardware: the same law commands the same, another one is compared with it."""
 
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -88,6 +89,17 @@ def test_through_a_log_on_disk_and_a_bus(tmp_path: Path) -> None:
         ebac.logs.read(tmp_path / "run.mcap"),
     ):
         assert_same_commands(ebac.replay(log, "ebac"), recorded)
+
+
+def test_a_log_of_a_run_that_was_changed_is_replayed_with_a_warning(tmp_path: Path) -> None:
+    ebac.simulate(ebac.Scenario(seconds=0.1), "direct").save(tmp_path / "run.mcap")
+    log = ebac.logs.read(tmp_path / "run.mcap")
+    moved = ebac.logs.Event(kind="parameter", message="hand target, 0.03 m", tick=50, t=0.05)
+    log.events.append(moved)
+    ebac.replay(log, "direct")
+    log.events.append(replace(moved, message="environment Wall(stiffness=2e4)"))
+    with pytest.warns(UserWarning, match=r"environment Wall.* at 0\.05 s"):
+        ebac.replay(log, "direct")
 
 
 def test_counts_that_stood_for_want_of_an_answer_are_no_leap() -> None:

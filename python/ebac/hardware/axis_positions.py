@@ -2,19 +2,18 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ebac._core import Corner, Disc, Wall, _World
+from ebac._core import _World
 from ebac.drives.errors import DriveError
 from ebac.drives.state import State
 from ebac.hardware.backends import hardware, simulated
 from ebac.hardware.drive_setup import drives_at
-from ebac.hardware.world_place import ends_of
+from ebac.hardware.world_place import GRAZE, distances_at, ends_of
 from ebac.hardware.zero import from_zero
 
 if TYPE_CHECKING:
@@ -23,8 +22,8 @@ if TYPE_CHECKING:
     from ebac.scenario import Environment
 
 
-#: A handle that stands deeper than this inside the virtual world [m], and is pushed harder [N], does not begin outside.
-GRAZE, PUSH = 1e-3, 1.0
+#: A handle that is pushed harder [N] where it stands inside the virtual world does not begin outside.
+PUSH = 1.0
 #: In the centre of a disc its force has no direction; this far beside it, it has [m].
 _OFF_CENTRE = 1e-9
 
@@ -200,31 +199,5 @@ def distances(
     environment : Free, Wall, Corner, Disc or worlds.World, optional
         The virtual world; that of the configuration, if not given.
     """
-    at = [*known.device.kinematics.forward([one.angle_rad for one in positions]), 0.0, 0.0]
-    x, y = float(at[0]), float(at[1])
-
-    def before(wall: Wall) -> float:
-        return wall.position - (math.cos(wall.angle) * x + math.sin(wall.angle) * y)
-
-    match known.environment if environment is None else environment:
-        case Wall() as wall:
-            return {"wall": before(wall)}
-        case Corner(first=first, second=second):
-            return {"first wall": before(first), "second wall": before(second)}
-        case Disc() as disc:
-            return {"disc": math.hypot(x - disc.x, y - disc.y) - disc.radius}
-        case _World() as world:
-            return _to_bodies(world, at[:3])
-        case _:
-            return {}
-
-
-def _to_bodies(world: Any, at: Sequence[float]) -> dict[str, float]:
-    """Return the distance to each body at rest; of a gimbal's handle in its plane, which is a little less or more."""
-    from ebac.worlds import distance
-
-    if not hasattr(world, "bodies"):
-        return {}  # an engine's surface is not known before it answers
-    place = np.array([at], float)
-    named = {f"body {i + 1}": body for i, body in enumerate(world.bodies)}
-    return {name: float(distance(body.solid, place)[0][0]) for name, body in named.items()}
+    at = known.device.kinematics.forward([one.angle_rad for one in positions])
+    return distances_at(known.environment if environment is None else environment, list(at))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from math import nan
 from typing import TYPE_CHECKING, Any, get_args
 
@@ -9,6 +10,7 @@ from ebac._core import Recorded, Step, _World
 from ebac._util.arguments import require, whole
 from ebac._util.foreign_worlds import refuse_python
 from ebac.hardware.parameter_updates import Note, ParameterUpdates
+from ebac.hardware.world_place import check_stays_outside
 from ebac.scenario import Environment
 
 if TYPE_CHECKING:
@@ -86,8 +88,10 @@ class CurrentParameters:
         self.updates.send("delay", lambda: self._running.hold_back(ticks), note)
         return ticks
 
-    def change(self, environment: Environment | None, **changes: Any) -> Environment:
-        """Send another world, or the present one with other numbers."""
+    def change(
+        self, environment: Environment | None, at: Sequence[float] | None, **changes: Any
+    ) -> Environment:
+        """Send another world, or the present one with other numbers, but none deep inside which the handle stands."""
         world = self.world if environment is None else environment
         require(
             world, get_args(Environment), "change", "a world, as ebac.Wall or one of ebac.worlds"
@@ -95,6 +99,8 @@ class CurrentParameters:
         refuse_python(world)
         if changes:
             world = changed(world, **changes)
+        if at is not None:
+            check_stays_outside(self.world, world, at)
         note = Note(
             message=f"environment {world!r}",
             values={f"environment.{name}": value for name, value in changes.items()},
@@ -110,8 +116,13 @@ class CurrentParameters:
         places += [nan] * (_MOST_AXES - len(places))
         names = [f"hand.target_{axis}" for axis in range(len(target))]
         values = {name: one for name, one in zip(names, target, strict=True) if one is not None}
-        shown = ", ".join("as before" if one is None else f"{one:g} m" for one in wanted)
-        note = Note(message=f"hand target: {shown}", values=values)
+        alone = len(wanted) == 1
+        shown = [
+            f"{one:g} m" if alone else f"axis {axis}: {one:g} m"
+            for axis, one in enumerate(target)
+            if one is not None
+        ]
+        note = Note(message=f"hand target, {', '.join(shown)}", values=values)
         self.updates.send("target", lambda: self._running.aim(places), note)
         self.target = wanted
         return wanted

@@ -168,7 +168,7 @@ def _wait(run: Run, look: Callable[[Run], None], there: Callable[[], bool], seco
 def _push(run: Run, look: Callable[[Run], None], axis: int, force: float) -> tuple[float, float]:
     """Push one axis; return its way [m] and the change of the measured force [N], both for a positive force."""
     before = _mean(run, axis, 0.05)
-    run.change(_wall(axis, force))
+    run.change(_wall(axis, force), into_hand=True)
     _wait(run, look, lambda: bool(abs(_mean(run, axis, 0.0)[0] - before[0]) > FAR), PUSH)
     after = _mean(run, axis, 0.02)
     run.change(Free())

@@ -89,26 +89,32 @@ class RunChanges(LiveStatus):
             self._check()
             return self._parameters.hold_back(ticks)
 
-    def change(self, environment: Environment | None = None, **changes: Any) -> Environment:
+    def change(
+        self, environment: Environment | None = None, *, into_hand: bool = False, **changes: Any
+    ) -> Environment:
         """Replace the virtual world, or change parameters of the present one, from the next tick on, and return it.
 
         Parameters
         ----------
         environment : Free, Wall, Corner, Disc or worlds.World, optional
             The new world; default: the present one.
+        into_hand : bool
+            Whether a surface may come to stand more than 1 mm deeper behind the handle than now, which throws the hand
+            out.
         **changes
             Parameters of the world, in SI units: `stiffness=5e3`.
 
         Raises
         ------
         ValueError, TypeError
-            For a number out of range, or a name that the world does not have.
+            For a number out of range, a name that the world does not have, or a surface behind the handle.
         RuntimeError
             When the loop has ended.
         """
         with self._lock:
             self._check()
-            return self._parameters.change(environment, **changes)
+            place = None if into_hand else self._place()
+            return self._parameters.change(environment, place, **changes)
 
     def set_target(self, *target: float | None) -> tuple[float | None, ...]:
         """Move the target of a simulated hand from the next tick on, and return all its targets.
@@ -134,6 +140,11 @@ class RunChanges(LiveStatus):
         with self._lock:
             self._check()
             return self._parameters.set_target(*target)
+
+    def _place(self) -> list[float] | None:
+        """Return where the handle is [m]; None before the first row."""
+        last = self.tail(1)
+        return [float(one) for one in last["x"].reshape(-1)] if len(last) else None
 
     def _check(self) -> None:
         if self.done:

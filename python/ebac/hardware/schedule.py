@@ -88,7 +88,8 @@ class Order:
         if self.law:
             run.retune(**self.law)
         if self.environment:
-            run.change(**self.environment)
+            with self.naming("environment"):
+                run.change(**self.environment)
         if self.target:
             run.set_target(*self.target)
 

@@ -10,12 +10,10 @@ from typing import Any, Self
 import numpy as np
 
 from ebac._core import Corner, Elastic, Free, HuntCrossley, _World
+from ebac.hardware.world_place import GRAZE
 from ebac.live.choices import RANGES
 from ebac.live.surface import distance_of
 from ebac.scenario import Environment
-
-#: A handle that stands so deep in another world is not held for outside [m].
-GRAZE = 1e-3
 
 
 def surface_of(world: Environment) -> tuple[float, float]:

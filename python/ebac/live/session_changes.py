@@ -85,7 +85,7 @@ class SessionChanges(SessionFiles):
             if "delay" in names:
                 run.hold_back(self.choices.delay - self._least_delay())
             if changed:
-                run.change(world)
+                run.change(world, into_hand=not self.real)  # what is simulated may be thrown out
             return False
         again = self.running
         self.pause()

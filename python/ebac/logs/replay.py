@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -25,6 +26,8 @@ if TYPE_CHECKING:
 #: The state of a loop in which the law acts, in the column `state` of a log that has one.
 RUN = 2
 
+#: How the events of a log begin that change what a replay computes.
+_CHANGES = ("law ", "environment ")
 #: What a replay reads of each axis: the name of the argument, the column.
 _EACH = {
     "counts": "counts",
@@ -79,6 +82,11 @@ def replay(
         When the log has no rows, lacks a column, has no scenario, or has other axes than the device.
     LoopFault
         When a stage of the replay gave no finite number, or a law in Python raised an error; carries the trace.
+
+    Warns
+    -----
+    UserWarning
+        For a log whose law or virtual world was changed while it ran: a replay keeps those of the start.
     """
     from ebac.trace import Trace
 
@@ -107,13 +115,30 @@ def replay(
 
 
 def _trace_of(log: Trace | Log | str | Path) -> Trace:
+    from ebac.logs import read
     from ebac.logs.files import load
     from ebac.trace import Trace
 
+    if isinstance(log, (str, Path)) and Path(log).suffix.lower() == ".mcap":
+        log = read(log)
     if isinstance(log, Log):
+        _warn_of_changes(log)
         return log.trace
     require(log, (Trace, str, Path), "ebac.replay", "a Trace, a Log or the path of one")
     return log if isinstance(log, Trace) else load(log)
+
+
+def _warn_of_changes(log: Log) -> None:
+    """Warn where law or world were changed while the log was recorded."""
+    made = [e for e in log.events if e.kind == "parameter" and e.message.startswith(_CHANGES)]
+    if made:
+        shown = f"{made[0].message} at {made[0].t:g} s"
+        more = f" and {len(made) - 1} more" if len(made) > 1 else ""
+        warnings.warn(
+            f"replay: law or world were changed while this log was recorded ({shown}{more}); the replay keeps those of "
+            "the start, so from there on it is no longer what ran",
+            stacklevel=4,
+        )
 
 
 def _ran(recorded: Trace) -> Trace:
