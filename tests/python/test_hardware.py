@@ -83,6 +83,7 @@ def test_a_run_is_rows_a_log_and_drives_without_power(device: OpenDevice, tmp_pa
     assert len(log.trace) == len(trace)
     assert (log.trace["tick"] == trace["tick"]).all()
     assert (log.trace["x"] == trace["x"]).all()
+    assert ebac.contact(trace) == ebac.contact(part)
     found = times(part)
     assert 0 < found.compute_p50_s <= found.compute_p99_9_s <= found.compute_most_s
     assert device.run("tca", ebac.Free(), seconds=0.1).law == "tca"  # and again, on the same device

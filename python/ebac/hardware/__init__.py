@@ -13,11 +13,12 @@ from ebac.hardware.device import OpenDevice
 from ebac.hardware.find_signs import AxisSigns, find_signs
 from ebac.hardware.interrupts import Terminated
 from ebac.hardware.law import designed
-from ebac.hardware.report import Report, Times, times, under_the_law
+from ebac.hardware.report import Report, Times, times
 from ebac.hardware.run import Run
 from ebac.hardware.signs import Signs
 from ebac.hardware.tables import ConfigurationError
 from ebac.hardware.zero import Zero
+from ebac.trace.acting import under_the_law
 
 __all__ = [
     "AxisPosition",

@@ -184,23 +184,3 @@ def times(trace: Trace) -> Times:
         late_most_s=float(late.max()),
         skipped=int(trace["skipped"].sum()),
     )
-
-
-def under_the_law(trace: Trace) -> Trace:
-    """Return the rows in which the law acted; their time begins at its first tick.
-
-    Parameters
-    ----------
-    trace : Trace
-        Of a run.
-
-    Returns
-    -------
-    Trace
-        Without a row where the law never acted.
-    """
-    rows = np.flatnonzero(trace["state"] == int(LoopState.RUN))
-    if not len(rows):
-        return trace.rows(0, 0)
-    part = trace.rows(int(rows[0]), int(rows[-1]) + 1)
-    return part.with_column("t", part["t"] - part["t"][0])

@@ -24,6 +24,7 @@ from ebac.metrics.energy_drawn import drawn
 from ebac.metrics.ideal import allowed_deviation, ideal_rest, without_engine
 from ebac.scenario import Environment
 from ebac.trace import Trace
+from ebac.trace.acting import of_drives, under_the_law
 
 #: A handle that met nothing for so long at the end of a run has left the surface [s]; a law that shakes meets the wall
 #: several times within it.
@@ -70,7 +71,8 @@ def contact(trace: Trace, *, axis: int = 0, truth: bool = True) -> Contact:
         Whether to take what a simulation knows, where the trace has it; False measures it by its readings, as a
         recorded run is measured.
 
-    A trace that was `changed` during its run has no ideal rest: it is measured, and not judged exact.
+    Of a run over drives only the rows in which the law acted are measured. A trace that was `changed` during its run
+    has no ideal rest: it is measured, and not judged exact.
 
     Returns
     -------
@@ -84,6 +86,8 @@ def contact(trace: Trace, *, axis: int = 0, truth: bool = True) -> Contact:
         When it is no trace.
     """
     require(trace, Trace, "ebac.contact", "a trace, as ebac.simulate or ebac.load returns it")
+    if of_drives(trace):
+        trace = under_the_law(trace)
     if len(trace) < FEWEST_ROWS:
         raise ValueError(f"the trace has {len(trace)} rows: a contact needs at least {FEWEST_ROWS}")
     for name in ("t", "x", "f_applied"):

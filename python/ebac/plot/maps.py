@@ -92,28 +92,33 @@ def _verdicts(figure: Figure, ax: Axes, found: StabilityMap) -> None:
 
 
 def _deviation(figure: Figure, ax: Axes, found: StabilityMap) -> None:
-    allowed = 1e3 * float(np.median(found["allowed_m"]))
+    allowed = 1e3 * found["allowed_m"]  # it depends on wall and hand
     deviation = 1e3 * np.abs(found["rest_m"] - found["ideal_m"])
     _panel(figure, ax, found, deviation, allowed, (1e-3, 1e1), "rest, away from the ideal [mm]")
 
 
 def _panel(
-    figure: Figure, ax: Axes, found: StabilityMap, values: Values, limit: float,
+    figure: Figure, ax: Axes, found: StabilityMap, values: Values, limit: float | Values,
     shown: tuple[float, float], title: str,
 ) -> None:  # fmt: skip
+    """Draw values, and a line where they are at their limit, which may be another in each cell."""
     known = np.where(np.isfinite(values), values, shown[1])
     inside = np.clip(known, *shown)
     image = ax.pcolormesh(
         *_edges(found), inside, cmap="viridis_r", norm=LogNorm(*shown), rasterized=True
     )
     bar = figure.colorbar(image, ax=ax, pad=0.02, extend="both")
-    xs, ys, smooth = _surface(found, np.log(inside))
+    low, high = float(np.min(limit)), float(np.max(limit))
+    one = f"{low:.2g}" == f"{high:.2g}"
+    xs, ys, smooth = _surface(found, np.log(inside) - np.log(limit))
     line = ""
-    if smooth.min() < np.log(limit) < smooth.max():
-        ax.contour(xs, ys, smooth, [np.log(limit)], **LINE)
-        bar.ax.axhline(limit, color="black", lw=1.4)
+    if smooth.min() < 0 < smooth.max():
+        ax.contour(xs, ys, smooth, [0.0], **LINE)
+        if one:
+            bar.ax.axhline(low, color="black", lw=1.4)
         line = " (line)"
-    ax.set_title(f"{title}; limit{line}: {limit:.3g}", fontsize="medium")
+    text = f"{low:.3g}" if one else f"{low:.2g} to {high:.2g}"
+    ax.set_title(f"{title}; limit{line}: {text}", fontsize="medium")
 
 
 def _surface(found: StabilityMap, values: Values) -> tuple[Values, Values, Values]:

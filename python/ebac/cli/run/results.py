@@ -243,6 +243,11 @@ def show(result: Result) -> None:
         output.say(
             "Everything was simulated, on a virtual clock: every tick in time.", style="bold"
         )
+        if result.contact is not None:
+            output.say(
+                "Measured by the encoder's readings, as on hardware; ebac.contact of the log knows the true motion and "
+                "the energy."
+            )
         missing = result.trace["bus.missing"]
         if late := int((missing[-1] - missing[0]).sum()):
             output.say(
