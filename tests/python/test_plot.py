@@ -328,3 +328,20 @@ def test_a_law_that_does_not_limit_beta_says_so_where_beta_would_stand() -> None
     assert why in legend.get_texts()[0].get_text()
     for other in ("eba", ebac.Variant("ebac", {"observer": False})):
         assert "does not limit" not in ebac.simulate(scenario, other).plot().get_suptitle()
+
+
+def test_changes_of_a_run_are_marked_and_told(run: Callable[..., ebac.Trace]) -> None:
+    events = [
+        ebac.logs.Event(kind=kind, message=message, tick=400, t=0.4)
+        for kind, message in (
+            ("parameter", "environment: stiffness 10000 -> 20000"),
+            ("parameter", "law ebac: kp 0.1 -> 0"),
+            ("lost", "3 rows"),
+        )
+    ]
+    figure = ebac.plot.plot_trace(run("ebac", seconds=1.0), events=events)
+    told = figure.get_suptitle()
+    assert "1, at 0.4 s: environment: stiffness 10000 -> 20000" in told
+    assert "2, at 0.4 s: law ebac: kp 0.1 -> 0" in told
+    assert "3 rows" not in told
+    assert all("1, 2" in [text.get_text() for text in ax.texts] for ax in figure.axes)

@@ -97,8 +97,8 @@ def test_a_log_of_a_run_that_was_changed_is_replayed_with_a_warning(tmp_path: Pa
     moved = ebac.logs.Event(kind="parameter", message="hand target, 0.03 m", tick=50, t=0.05)
     log.events.append(moved)
     ebac.replay(log, "direct")
-    log.events.append(replace(moved, message="environment Wall(stiffness=2e4)"))
-    with pytest.warns(UserWarning, match=r"environment Wall.* at 0\.05 s"):
+    log.events.append(replace(moved, message="environment: stiffness 10000 -> 20000"))
+    with pytest.warns(UserWarning, match=r"environment: stiffness .* at 0\.05 s"):
         ebac.replay(log, "direct")
 
 

@@ -101,8 +101,14 @@ class CurrentParameters:
             world = changed(world, **changes)
         if at is not None:
             check_stays_outside(self.world, world, at)
+        shown = repr(world)
+        if environment is None and changes:
+            shown = ", ".join(
+                f"{name} {getattr(self.world, name):g} -> {value:g}"
+                for name, value in changes.items()
+            )
         note = Note(
-            message=f"environment {world!r}",
+            message=f"environment: {shown}",
             values={f"environment.{name}": value for name, value in changes.items()},
         )
         self.updates.send("environment", lambda: self._running.change_world(world), note)

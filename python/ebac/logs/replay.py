@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 RUN = 2
 
 #: How the events of a log begin that change what a replay computes.
-_CHANGES = ("law ", "environment ")
+_CHANGES = ("law ", "environment")
 #: What a replay reads of each axis: the name of the argument, the column.
 _EACH = {
     "counts": "counts",

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import Any
+from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -25,6 +25,9 @@ from ebac.plot.style import (
     new_figure,
 )
 from ebac.trace import Trace
+
+if TYPE_CHECKING:
+    from ebac.logs import Event
 
 #: Columns that every loop of ebac has.
 LOOP = ("x", "f_env", "f_meas", "f_cmd", "f_applied", "work", "damped")
@@ -48,7 +51,7 @@ BOUNDS = {
 Panel = Callable[[Axes, Trace, int, Trace], None]
 
 
-def plot_trace(trace: Trace) -> Picture:
+def plot_trace(trace: Trace, *, events: Sequence[Event] = ()) -> Picture:
     """Draw a run: position, force, beta and energy over time, one column of panels per axis in use.
 
     A log that lacks columns of a loop, such as one of another program, is drawn with all of its columns that change.
@@ -57,6 +60,8 @@ def plot_trace(trace: Trace) -> Picture:
     ----------
     trace : Trace
         At least two rows.
+    events : sequence of Event
+        Those of its log: what was changed while it ran is marked, each change by a line and a number.
 
     Returns
     -------
@@ -96,12 +101,32 @@ def plot_trace(trace: Trace) -> Picture:
     if contact is not None:
         _enlarge(figure.axes, grid, panels, contact, used[0], trace)
     figure.align_ylabels()
+    changes = [event for event in events if event.kind == "parameter"]
+    _mark(figure.axes, changes)
     idle = [str(axis) for axis in range(trace.axes) if axis not in used]
     note = f"\naxis {', '.join(idle)} not in use, not shown" if idle else ""
     if "law.beta" in trace and _beta not in panels:
         note += f"\nbeta is not shown: {no_beta(trace)}"
+    for number, change in enumerate(changes, start=1):
+        note += f"\n{number}, at {change.t:.4g} s: {change.message}"
     figure.suptitle(title(trace) + note, fontsize="medium")
     return figure
+
+
+def _mark(panels: Sequence[Axes], changes: Sequence[Event]) -> None:
+    """Mark changes in every panel that shows their time, with their numbers along the upper edge."""
+    numbers: dict[float, list[str]] = {}
+    for number, change in enumerate(changes, start=1):
+        numbers.setdefault(change.t, []).append(str(number))
+    for ax in panels:
+        low, high = ax.dataLim.x0, ax.dataLim.x1
+        for t, those in numbers.items():
+            if low <= t <= high:
+                ax.axvline(t, color="0.35", lw=0.9, ls="--", zorder=1.8)
+                ax.annotate(
+                    ", ".join(those), (t, 1), xycoords=ax.get_xaxis_transform(), xytext=(2, -2),
+                    textcoords="offset points", va="top", fontsize="small", color="0.25",
+                )  # fmt: skip
 
 
 def _first_contact(trace: Trace, axis: int) -> Trace | None:

@@ -211,11 +211,12 @@ def landmarks(ax: Axes, trace: Trace) -> None:
     if scenario is None:
         return
     ideal = (
-        ideal_rest(scenario) if "true.x" in trace else None
+        ideal_rest(scenario) if "true.x" in trace and not trace.changed else None
     )  # a real hand is not that of a scenario
     if isinstance(scenario.environment, Wall) and scenario.environment.angle == 0:
         surface = 1e3 * scenario.environment.position
-        style: dict[str, Any] = {"color": "0.35", "lw": 1, "label": "wall surface"}
+        at_first = " at the start" if trace.changed else ""
+        style: dict[str, Any] = {"color": "0.35", "lw": 1, "label": f"wall surface{at_first}"}
         if swing := 1e3 * scenario.environment.motion_amplitude:
             t = trace["t"][(trace["t"] >= ax.dataLim.x0) & (trace["t"] <= ax.dataLim.x1)]
             turns = scenario.environment.motion_frequency * t

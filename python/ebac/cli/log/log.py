@@ -224,7 +224,7 @@ def plot(
         from ebac.plot import plot_columns, plot_trace
 
         chosen = output.words(column)
-        figure = plot_columns(trace, chosen) if chosen else plot_trace(trace)
+        figure = plot_columns(trace, chosen) if chosen else plot_trace(trace, events=read.events)
         figure.suptitle(f"{file.name}: {figure.get_suptitle()}", fontsize="medium")
         files = [out] if out else [free_file(file.with_suffix(f".{e}")) for e in style.formats()]
         for picture in files:

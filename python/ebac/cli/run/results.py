@@ -196,11 +196,13 @@ def write(result: Result, stem: Path | None, style: FigureOptions) -> list[str]:
     """Write figure and numbers beside the log; return the names of all files."""
     if stem is None:
         return []
+    from ebac.logs import read
     from ebac.plot import plot_trace
 
     names = [f"{stem.name}.mcap"]
     if len(result.trace) >= 2:
-        names += style.save(plot_trace(result.trace), stem.parent, stem.name)
+        events = read(result.report.log).events if result.changed and result.report.log else []
+        names += style.save(plot_trace(result.trace, events=events), stem.parent, stem.name)
     stem.with_suffix(".json").write_text(result.document() + "\n", encoding="utf-8")
     return [*names, f"{stem.name}.json"]
 
