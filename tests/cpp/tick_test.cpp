@@ -241,7 +241,7 @@ TEST(CompensationInFlight, ActsAfterTheDelayWithTheGainWithWhichItWasSent) {
   using Acted = std::pair<double, double>;  // N m, gain
   const auto next = [&](double given, double gain) {
     compensation.give(Axes::Constant(given));
-    compensation.sent(gain);
+    compensation.sent_with(gain);
     compensation.advance();
     return Acted(compensation.motion()[0], compensation.gain());
   };

@@ -26,7 +26,7 @@ class CompensationInFlight {
   }
 
   /// Another gain with which it was sent; 0 where it was not.
-  void sent(double gain) EBAC_RT { gain_of_given_ = std::min(gain_of_given_, gain); }
+  void sent_with(double gain) EBAC_RT { gain_of_given_ = std::min(gain_of_given_, gain); }
 
   /// The next tick: what acted over the interval that ended with it.
   void advance() EBAC_RT {

@@ -150,10 +150,10 @@ class Loop {
       const int limited = limiter_.limit(axes, run_state_.gain(), now.dt);
       // What is stored now keeps the row waiting: see copy_words.
       if (limited != sample_.limited) sample_.limited = limited;
-      chain_.sent(gain());
+      chain_.sent_with(gain());
     } else {
       shut(now, axes);
-      chain_.sent(0);
+      chain_.sent_with(0);
     }
     stop_device();
     if constexpr (kTimed) clock_.finish();

@@ -71,8 +71,8 @@ class SignalChain {
   void drive(double dt, std::span<Axis> axes) EBAC_RT;
 
   /// The gain of a soft start or stop with which these currents are sent, if not whole; 0 where they are not.
-  void sent(double gain) EBAC_RT {
-    if (compensates_) compensation_in_flight_.sent(gain);
+  void sent_with(double gain) EBAC_RT {
+    if (compensates_) compensation_in_flight_.sent_with(gain);
   }
 
  private:

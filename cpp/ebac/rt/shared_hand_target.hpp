@@ -37,19 +37,18 @@ class SharedHandTarget {
 
 /// A simulated device whose hand follows a shared target, if there is one. Copies share it.
 template <Device D>
-class TargetSubscriber {
+class TargetSubscriber : public DeviceAround<D> {
+  using DeviceAround<D>::device_;
+
  public:
   explicit TargetSubscriber(D device, std::shared_ptr<SharedHandTarget> cell = nullptr)
-      : device_(std::move(device)), cell_(std::move(cell)) {}
+      : DeviceAround<D>(std::move(device)), cell_(std::move(cell)) {}
 
   Reading exchange(const Command& command) EBAC_RT {
     // A reading without elapsed time takes no target.
     if (cell_ != nullptr && command.elapsed > 0) follow(cell_->take());
     return device_.exchange(command);
   }
-
-  auto parts() const EBAC_RT { return row_parts(device_); }
-  const D& device() const EBAC_RT { return device_; }
 
  private:
   void follow(const HandTarget* aim) EBAC_RT {
@@ -59,7 +58,6 @@ class TargetSubscriber {
     }
   }
 
-  D device_;
   std::shared_ptr<SharedHandTarget> cell_;
 };
 

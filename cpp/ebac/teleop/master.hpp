@@ -67,7 +67,7 @@ class MasterSide {
     if (sample_.fault == Fault::kNone) sample_.fault = judge(reading, axes);
     if (sample_.fault != Fault::kNone) {
       rest(axes);
-      chain_.sent(0);
+      chain_.sent_with(0);
     }
     ++tick_;
     return {
