@@ -44,9 +44,11 @@ namespace ebac {
 /// and u, by far so at rest. All of w is used where the force turns out to be noisier than declared, and
 /// where the readings go on contradicting the model: friction that holds the device is a force that D
 /// must learn, or x would rest at the end of its counts, with a velocity that is none. Where the reading stands
-/// for 20 ms while x is at that end, D learns it in 5 ms. The prediction
-/// takes the force of the hand to change as it did in the last 12 ms, and at rest without the noise it
-/// shows: a lag in that force of 1 N would be 4 m/s^2. v is kept within what two readings prove of it.
+/// for 10 ms while x is at that end, D learns it in 2 ms.
+///
+/// The prediction takes the force of the hand to change as it did in the last 12 ms, and at rest without
+/// the noise it shows: a lag in that force of 1 N would be 4 m/s^2. v is kept within what two readings
+/// prove of it.
 ///
 /// With `learn_scale`, f counts as its learned `MotorStrength` times the command.
 class AxisObserver {
@@ -179,10 +181,9 @@ class AxisObserver {
   // ripple, hands at rest and energy given out.
   static constexpr double kCell = 1.5;  // counts from the reading that x may have
   static constexpr double kDithered =
-      0.09;  // 1, (w dt)^2 from which noise moves x over whole counts
-  static constexpr double kStands =
-      0.02;  // s, a reading that stands for so long is that of a held device
-  static constexpr double kHolds = 5e-3;   // s, in which D takes what would move it
+      0.09;                                // 1, (w dt)^2 from which noise moves x over whole counts
+  static constexpr double kStands = 0.01;  // s, so long stands the reading of a held device
+  static constexpr double kHolds = 2e-3;   // s, in which D takes what would move it
   static constexpr double kMoving = 0.01;  // m/s, from here on the device moves
   static constexpr double kSlow = 2.5e-3;  // m/s, from here on a quiet sensor counts as any other
   static constexpr double kQuiet = 0.5;    // of the declared noise: less is a quiet sensor
