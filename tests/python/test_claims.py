@@ -59,6 +59,17 @@ def test_passive_counts_what_can_be_observed_where_nothing_is_known() -> None:
     assert_passive(trace, damping=1.0)  # and 1 mJ more in each tick
 
 
+def test_passive_adds_up_what_every_axis_gives_and_damps() -> None:
+    dx = np.array([[0, 0], [1e-3, 0], [-1e-3, 1e-3], [1e-3, -1e-3]])
+    force = np.array([[0.0, 0], [1, 2], [2, 3], [3, 6]])
+    trace = made_up(dx=dx, dt=np.full((4, 2), 1e-3), f_applied=force)
+    with pytest.raises(
+        AssertionError, match=r"the energy observed at the port falls to -1 mJ at tick 3"
+    ):
+        assert_passive(trace, damping=0.0)  # 1, then - 2 + 3, then 3 - 6 mJ
+    assert_passive(trace, damping=1.0)  # and 1 mJ more for each axis that moves
+
+
 # --- settling ---
 
 

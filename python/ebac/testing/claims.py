@@ -205,10 +205,10 @@ def _energy(trace: Trace, damping: float | None) -> tuple[NDArray[Any], str]:
             "the trace has no column true.energy: give damping= [N s/m] of the device, to count what can be observed"
         )
     _not_negative(damping=damping)
-    dt = trace["dt"]
-    dx, force = (trace[name].reshape(len(trace), -1) for name in ("dx", "f_applied"))
-    rate = np.divide(damping, dt, out=np.zeros(len(trace)), where=dt > 0)
-    damped = np.cumsum(rate[:, None] * dx**2, axis=0)
+    # `dt` has one value per axis where `dx` has.
+    dt, dx, force = (trace[name].reshape(len(trace), -1) for name in ("dt", "dx", "f_applied"))
+    rate = np.divide(damping, dt, out=np.zeros_like(dt), where=dt > 0)
+    damped = np.cumsum(rate * dx**2, axis=0)
     # Without the static compensation, which is no work of the law, where a loop has recorded it.
     work = (
         trace["work"].reshape(len(trace), -1) if "work" in trace else np.cumsum(force * dx, axis=0)
