@@ -199,6 +199,22 @@ def test_the_command_names_the_run_with_the_same_bits() -> None:
     assert "the same to the bit without the bus by --device-permille" in shown
 
 
+def test_the_command_names_the_law_whose_torque_a_drive_limited() -> None:
+    from ebac.cli.wall.results import limited_by_i2t
+
+    stiff = ebac.Hand(stiffness=3000, path=[ebac.Step(target=0.06)])
+    held = ebac.Scenario(hand=stiff, seconds=70, observer=False)
+    trace = ebac.simulate(held, "direct", through="can")
+    direct = ebac.simulate(quantised(held), "direct")
+    assert trace["x"].tobytes() != direct["x"].tobytes()
+    assert limited_by_i2t([direct, trace]) == ["direct"]
+    words = ["wall", "--no-files", "--law", "direct", "--seconds", "70", "--through", "can"]
+    words += ["--hand-stiffness", "3000", "--hand-target", "0.06"]
+    shown = " ".join(CliRunner().invoke(app, words).stdout.split())
+    assert "under direct the i2t limit of a drive held the torque" in shown
+    assert "to the bit" not in shown
+
+
 @pytest.mark.parametrize("delay", ["1", "2"])
 def test_the_wall_with_the_papers_drive_has_the_verdict_of_an_ideal_one(delay: str) -> None:
     from ebac._util.verdicts import verdict

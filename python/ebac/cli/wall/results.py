@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NoReturn, TypeAlias
 
@@ -146,6 +146,7 @@ def show(
     contacts: list[Contact],
     through: str | None = None,
     bodies: list[WorldContact] | None = None,
+    limited: Sequence[str] = (),
 ) -> None:
     """Print the table, a few laws at a time, that of the bodies, and what was simulated."""
     from ebac._util import descriptions
@@ -173,8 +174,28 @@ def show(
     if through is not None:
         output.indented(
             "through a CAN bus in this process, with simulated CANopen drives, torque in whole thousandths of the "
-            "rated one: the same to the bit without the bus by --device-permille"
+            "rated one" + _without_bus(limited)
         )
+
+
+def limited_by_i2t(traces: list[Trace]) -> list[str]:
+    """Return the laws under which a simulated drive gave less torque than it was sent, as its i2t limit makes it."""
+    return [
+        trace.law
+        for trace in traces
+        if "bus.actual_permille" in trace
+        and (trace["bus.actual_permille"][1:] != trace["bus.target_permille"][:-1]).any()
+    ]
+
+
+def _without_bus(limited: Sequence[str]) -> str:
+    """Return how a run through a bus compares with one without."""
+    if not limited:
+        return ": the same to the bit without the bus by --device-permille"
+    return (
+        f"; under {', '.join(limited)} the i2t limit of a drive held the torque, which a run without the bus "
+        "(--device-permille) has not"
+    )
 
 
 def show_fallbacks(traces: list[Trace]) -> None:

@@ -32,7 +32,8 @@ def wall(
         str | None,
         options.option(
             text="What lies between loop and plant: `can` for a CAN bus with simulated drives, which take torque in "
-            "whole thousandths: to the bit the run without a bus with --device-permille",
+            "whole thousandths: to the bit the run without a bus with --device-permille, as long as no i2t limit of a "
+            "drive acts",
             default="nothing",
             panel=options.RUN,
         ),
@@ -140,7 +141,9 @@ def _run(
     if as_json:
         typer.echo(text)
         return
-    wall_results.show(scenario, contacts, through, bodies)
+    wall_results.show(
+        scenario, contacts, through, bodies, limited=wall_results.limited_by_i2t(traces)
+    )
     wall_results.show_fallbacks(traces)
     if out is not None:
         output.list_files(out, files)
