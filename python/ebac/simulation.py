@@ -16,6 +16,7 @@ from ebac._util.kept_law import KeptLaw, law_error
 from ebac.laws import AnyLaw, CoreLaw, PythonLaw, design, law_name
 from ebac.laws.protocols import is_core_law
 from ebac.laws.tuned_laws import on_its_observer
+from ebac.laws.variant import law_text
 from ebac.scenario import Scenario
 from ebac.trace import Trace
 
@@ -115,7 +116,8 @@ def simulate(
         None puts the plant at the loop's side. "can" puts a CAN bus in between: simulated CANopen drives (CiA 402),
         one per axis, enabled before the first tick and disabled after the last; torque then goes in whole
         thousandths of the rated torque, and the trace has columns `bus.*`. All others are the same, to the bit,
-        as those of a run without a bus whose drive has `permille=True`.
+        as those of a run without a bus whose drive has `permille=True`, as long as no drive limits its current by i2t:
+        at its peak current it does so after more than a minute, and `bus.actual_permille` is then less than asked.
     bus : TimedBus, optional
         With `through="can"`: a bus that takes time. Each frame arrives when its last bit has passed, with its own stuff
         bits, behind frames of a higher priority; drives answer after a time of their own, and frames may be destroyed.
@@ -181,7 +183,7 @@ def simulate(
         kept = KeptLaw(finished, errors)
         rows = _core._simulate_python(setup, kept, through is not None, bus)
     name = law if isinstance(law, str) else law_name(finished)
-    trace = Trace.from_rows(rows, scenario=scenario, law=name, law_repr=repr(finished))
+    trace = Trace.from_rows(rows, scenario=scenario, law=name, law_repr=law_text(finished))
     fault = _core.Fault(int(trace["fault"][-1]))
     own = None if mine is None else mine.error
     if own is not None and not isinstance(own, Exception):

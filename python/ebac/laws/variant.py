@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import re
 from collections.abc import Mapping
 from typing import Any, TypeAlias, cast
 
@@ -52,6 +53,9 @@ class Variant:
             [law_name(self.law), *(f"{n} = {shown_value(v)}" for n, v in self.changes.items())]
         )
 
+
+#: Where an object lies in memory, in a text that has nothing better: another place in every run.
+_ADDRESS = re.compile(r" at 0x[0-9a-fA-F]+")
 
 AnyLaw: TypeAlias = str | type[CoreLaw] | type[PythonLaw] | CoreLaw | PythonLaw | Variant
 
@@ -111,6 +115,22 @@ def law_name(law: AnyLaw) -> str:
         return law
     kind = law if isinstance(law, type) else type(law)
     return str(getattr(law, "name", kind.__name__))
+
+
+def law_text(law: CoreLaw | PythonLaw) -> str:
+    """Return a finished law with its parameters, as files keep it: the same text in every run.
+
+    A law in Python without a `__repr__` of its own is its class and its public fields.
+    """
+    text = repr(law)
+    if type(law).__repr__ is object.__repr__:
+        fields = [
+            (name, value)
+            for name, value in getattr(law, "__dict__", {}).items()
+            if not name.startswith("_")
+        ]
+        text = f"{type(law).__name__}({', '.join(f'{name}={value!r}' for name, value in fields)})"
+    return _ADDRESS.sub("", text)
 
 
 def shown_value(value: bool | float) -> str:

@@ -15,6 +15,7 @@ from ebac._util.kept_law import KeptLaw, law_error
 from ebac.laws import AnyLaw, design, law_name
 from ebac.laws.protocols import is_core_law
 from ebac.laws.tuned_laws import on_its_observer
+from ebac.laws.variant import law_text
 from ebac.logs.log import Log
 from ebac.logs.sensor_rows import force_age, force_status
 
@@ -108,7 +109,7 @@ def replay(
         kept = KeptLaw(finished, errors)
         rows = _core._replay_python(source, kept, scenario.device, scenario.environment)
     trace = Trace.from_rows(
-        rows, scenario=scenario, law=law_name(finished), law_repr=repr(finished)
+        rows, scenario=scenario, law=law_name(finished), law_repr=law_text(finished)
     )
     trace = trace.with_column("tick", recorded["tick"][: len(trace)])
     return _unless_faulty(trace, law_error(errors))
