@@ -17,13 +17,17 @@ import ebac
 from ebac import Scenario, worlds
 from ebac.hardware import Configuration, Run
 from ebac.worlds import (
+    Body,
     Bridge,
     BridgeParams,
+    Elastic,
     EngineThread,
     EngineTiming,
     FunctionWorld,
     LocalModel,
+    Plane,
     Touch,
+    World,
     preset,
 )
 
@@ -295,3 +299,15 @@ def test_a_loop_in_real_time_takes_an_engine_in_a_thread_and_no_function(
     assert thread.world.report.models > 0
     assert np.isfinite(run.finish()["f_env"]).all()
     assert len(ebac.load(tmp_path / "run.mcap")) > 0
+
+
+def test_damping_of_elastic_bodies_behind_a_bridge_is_refused_however_it_is_made() -> None:
+    damped = World(Body(solid=Plane(), material=Elastic(stiffness=5e3, damping=30)))
+    words = r"damping = 30 N s/m: must be 0 N s/m behind an engine"
+    with pytest.raises(ValueError, match=words):
+        Bridge(damped)
+    text = Scenario(environment=Bridge(WALL)).to_toml()
+    table = 'type = "Elastic"\nstiffness = 5000.0\ndamping = '
+    assert f"{table}0.0" in text
+    with pytest.raises(ValueError, match=words):
+        Scenario.from_toml(text.replace(f"{table}0.0", f"{table}30.0"))

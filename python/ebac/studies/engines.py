@@ -15,7 +15,7 @@ from ebac.scenario import Environment, Scenario
 from ebac.simulation import LoopFault, simulate
 from ebac.studies.measures import SPARE
 from ebac.trace import Trace
-from ebac.worlds import Bridge, Elastic, World, preset
+from ebac.worlds import Bridge, World, preset
 
 #: Laws that are compared unless others are given.
 LAWS = ("direct", "tca-damped", "passivity-control", "ebac")
@@ -161,19 +161,11 @@ def behind_engine(
     Raises
     ------
     ValueError
-        For a world that no engine computes, or an elastic body with damping, which its local model would leave out.
+        For a world that no engine computes; as `Bridge`, for an elastic body with damping.
     """
     late = 1 / rate if compute is None and rate > 0 else compute or 0.0
     timing = EngineTiming(rate=rate, jitter=jitter, compute=late, seed=seed)
-    world = _bodies(environment)
-    elastic = [body.material for body in world.bodies if isinstance(body.material, Elastic)]
-    damping = max((material.damping for material in elastic), default=0.0)
-    if damping > 0:
-        raise ValueError(
-            f"damping = {damping:g} N s/m: must be 0 N s/m behind an engine, whose local model of bodies has none; "
-            "leave --wall-damping out"
-        )
-    return Bridge(world, timing=timing, held=held, rendering=rendering)
+    return Bridge(_bodies(environment), timing=timing, held=held, rendering=rendering)
 
 
 def _bodies(world: Environment) -> World:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Any, Self
 
 from ebac import _core
-from ebac._core import BridgeParams, EngineTiming
+from ebac._core import BridgeParams, Elastic, EngineTiming
 from ebac._util.arrays import Values
 from ebac.worlds.answers import Kept, LocalModel, contact_numbers, model_numbers
 from ebac.worlds.world import World
@@ -155,6 +155,17 @@ def warning_of(report: BridgeReport, rendering: BridgeParams) -> str:
     )
 
 
+def _refuse_damping(world: World) -> None:
+    """Raise ValueError for an elastic body with damping: the local model of bodies would leave it out."""
+    for body in world.bodies:
+        if isinstance(body.material, Elastic) and body.material.damping > 0:
+            raise ValueError(
+                f"Elastic.damping = {body.material.damping:g} N s/m: must be 0 N s/m behind an engine, "
+                "whose local model of bodies has none; leave it out, or return a LocalModel with damping= from an "
+                "engine of your own"
+            )
+
+
 class Bridge(ForeignWorld):
     """A world computed by a slow engine: its newest local model is rendered in every tick; in simulated time.
 
@@ -177,7 +188,8 @@ class Bridge(ForeignWorld):
     Raises
     ------
     TypeError, ValueError
-        For something that cannot be called, or more than 62 answers on their way.
+        For something that cannot be called, more than 62 answers on their way, or an elastic body with damping, which
+        the local model of a `World` would leave out.
     """
 
     def __init__(
@@ -199,6 +211,7 @@ class Bridge(ForeignWorld):
         self._last: Bridge | None = None
         how = (self.timing, self.rendering, self.held)
         if isinstance(engine, World):
+            _refuse_damping(engine)
             made = _core._scheduled_world(engine, *how)
         else:
             _callable("Bridge.engine", engine)
