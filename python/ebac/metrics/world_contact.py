@@ -70,7 +70,7 @@ class WorldContact:
 
 
 def world_contact(trace: Trace) -> WorldContact:
-    """Measure a run in a `worlds.World` on a device with straight axes.
+    """Measure a run in a `worlds.World` on a device with straight axes or a gimbal with a slide.
 
     Parameters
     ----------
@@ -80,7 +80,7 @@ def world_contact(trace: Trace) -> WorldContact:
     Raises
     ------
     ValueError
-        When the trace's scenario has no such world, or a gimbal.
+        When the trace's scenario has no such world, or a gimbal without a slide.
     TypeError
         When it is no trace.
     """
@@ -93,7 +93,8 @@ def world_contact(trace: Trace) -> WorldContact:
         )
     if isinstance(scenario.device.kinematics, Gimbal):
         raise ValueError(
-            "world_contact: a gimbal's handle moves on a sphere; give a device with straight axes"
+            "world_contact: the handle of a gimbal without a slide moves on a sphere; give a device with straight axes "
+            "or a gimbal with a slide"
         )
     n = len(trace)
     x = np.zeros((n, 3))
