@@ -2,6 +2,7 @@
 
 import json
 import re
+import sys
 from pathlib import Path
 from typing import Any
 
@@ -203,7 +204,14 @@ def test_a_compiled_law_runs_on_drives_and_in_a_gastroscopy() -> None:
 
 
 @pytest.mark.parametrize(
-    "command", ["run joystick.toml --virtual", "gastroscopy", "live --virtual"]
+    "command",
+    [
+        "run joystick.toml --virtual",
+        "gastroscopy",
+        "gastroscopy master --simulated",
+        "gastroscopy drives --seconds 1",
+        "live --virtual",
+    ],
 )
 def test_a_loop_without_python_refuses_a_law_in_python_by_its_name(command: str) -> None:
     assert run("demo", "joystick").exit_code == 0
@@ -213,6 +221,14 @@ def test_a_loop_without_python_refuses_a_law_in_python_by_its_name(command: str)
     assert "damped: is written in Python" in told
     assert "write it in C++" in told
     assert not list(Path().glob("ebac-*"))
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="loops in real time need Linux")
+@pytest.mark.real_time
+def test_a_compiled_law_runs_the_joystick_of_a_gastroscopy_on_drives() -> None:
+    Path("compiled.py").write_text("import ebac\nheavy = ebac.TCADamped\n", encoding="utf-8")
+    run("gastroscopy", "drives", "--law", "compiled.py:heavy", "--seconds", "1", "--out", "logs")
+    assert ebac.load("logs/master.mcap").law == "tca-damped"
 
 
 def test_a_module_that_does_not_load_says_why() -> None:

@@ -32,8 +32,8 @@ def laws(default: str, *, panel: str = RUN) -> Any:
     return typer.Option(
         "--law",
         "-l",
-        help="A law by name, see `ebac laws`, or of your own, FILE.py:NAME; several separated by commas, `all` for "
-        "every law of the package.",
+        help="A law by name, see `ebac laws`, or of your own, FILE.py:NAME or MODULE:NAME; several separated by "
+        "commas, `all` for every law of the package.",
         show_default=default,
         rich_help_panel=panel,
         autocompletion=completion.laws,
@@ -258,7 +258,7 @@ class RunOptions:
         bool | None,
         typer.Option(
             "--observer-every-law",
-            help="Let every law use the estimate of the observer, not only `ebac`.",
+            help="Let every law use the estimate of the observer, not only `ebac`; not with --observer-learns.",
             rich_help_panel=RUN,
         ),
     ] = None
@@ -266,7 +266,8 @@ class RunOptions:
         bool | None,
         typer.Option(
             "--observer-learns",
-            help="Let the observer learn, from swings on the wall, how strong the motor is for the force sensor.",
+            help="Let the observer learn, from swings on the wall, how strong the motor is for the force sensor; not "
+            "with --observer-every-law.",
             rich_help_panel=RUN,
         ),
     ] = None

@@ -68,7 +68,7 @@ def chain(
     link : Link, optional
         The network, the same both ways; default: 50 ms.
     law : str, optional
-        Of the joystick; default: that of its configuration.
+        Of the joystick, as `ebac gastroscopy master --law` takes it; default: that of its configuration.
     seed : int
         Of the network.
     consent_after, give_up : float

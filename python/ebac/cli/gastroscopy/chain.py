@@ -8,14 +8,14 @@ from typing import Annotated
 import typer
 
 from ebac.cli import by_name, options, output
-from ebac.cli.gastroscopy.drives import GiveUp
+from ebac.cli.gastroscopy.drives import GiveUp, check_law
 from ebac.cli.gastroscopy.side_table import show
 from ebac.cli.teleop.options import LinkOptions
 
 
 def drives(
     over: LinkOptions,
-    law: Annotated[str | None, options.one_law(default="as configured")] = None,
+    law: Annotated[str | None, options.one_law(default="as configured", own=True)] = None,
     seconds: Annotated[
         float, typer.Option(help="How long the joystick has power [s].", min=1, max=3600)
     ] = 30.0,
@@ -40,12 +40,15 @@ def drives(
     * `ebac gastroscopy drives --seconds 10 --delay 0.1 --jitter 0.01 --loss 0.05 --cut-every 6 --cut-length 1 --json`
     """
     from ebac.gastroscope.chain import chain
+    from ebac.gastroscope.on_drives import configuration
 
     with output.refusing():
+        if law is not None:  # whose word the joystick's process reads again
+            check_law(by_name.any_law(law), configuration("master"))
         found = chain(
             seconds,
             link=over.link(),
-            law=None if law is None else by_name.one_law(law),
+            law=law,
             give_up=give_up,
             folder=out,
             seed=1 if seed is None else seed,

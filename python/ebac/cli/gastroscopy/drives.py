@@ -21,6 +21,7 @@ from ebac.cli.teleop.processes import HOST, PORT, peer_of
 if TYPE_CHECKING:
     from ebac.gastroscope.far_side import LinkAtWork, LinkEvent, SideReport
     from ebac.hardware import Configuration
+    from ebac.laws import AnyLaw
 
 Simulated = Annotated[
     bool,
@@ -60,7 +61,7 @@ def master(
     host: Annotated[str, HOST] = "127.0.0.1",
     port: Annotated[int, PORT] = 0,
     on_simulated: Simulated = False,
-    law: Annotated[str | None, options.one_law(default="as configured")] = None,
+    law: Annotated[str | None, options.one_law(default="as configured", own=True)] = None,
     consent_after: Annotated[
         float | None,
         typer.Option(
@@ -98,9 +99,10 @@ def master(
             output.fail(
                 f"--consent-after {consent_after:g}: only with --simulated; on your drives the hand agrees, by Enter"
             )
-        name = None if law is None else by_name.one_law(law)
+        wanted = None if law is None else by_name.any_law(law)
         at = peer_of(peer, "--peer")
         (known,) = _known({"master": configuration}, on_simulated)
+        check_law(wanted, known)
         if not on_simulated:
             can_ask(known, yes)
         _keep(log)
@@ -108,7 +110,7 @@ def master(
         found = run_master(
             known,
             peer=at,
-            law=name,
+            law=wanted,
             host=host,
             port=port,
             simulate=on_simulated,
@@ -190,6 +192,12 @@ def slave(
             ready=lambda at: _ready(at, announce, None if as_json else teller),
         )
     _give(found, as_json, on_simulated)
+
+
+def check_law(law: AnyLaw | None, known: Configuration) -> None:
+    """Refuse a law that the loop of a joystick cannot run, before its drives are opened."""
+    if law is not None:
+        known.replace(law=law, changes={}).design()
 
 
 def _known(given: Mapping[str, Path | None], on_simulated: bool) -> list[Configuration]:
