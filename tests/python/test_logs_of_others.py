@@ -210,6 +210,17 @@ def test_load_warns_of_damage(trace: ebac.Trace, tmp_path: Path) -> None:
     assert len(loaded) == len(trace) - 50
 
 
+def test_load_warns_of_a_log_that_was_cut(trace: ebac.Trace, tmp_path: Path) -> None:
+    path = logged(tmp_path / "run.mcap", trace)
+    assert len(ebac.load(path)) == len(trace)  # without a warning
+    path.write_bytes(path.read_bytes()[:-30])
+    with pytest.warns(
+        UserWarning, match=rf"run\.mcap: was cut, .* {len(trace)} whole rows read\."
+    ) as told:
+        assert len(ebac.load(path)) == len(trace)
+    assert f"`ebac log repair {path}`" in str(told[0].message)
+
+
 def test_every_command_reports_damage(
     trace: ebac.Trace, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

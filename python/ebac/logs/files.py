@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ebac._util.arguments import require_file, require_path
+from ebac._util.plural import plural
 from ebac._util.progress import Progress
 from ebac.logs.about import SIMULATED_DRIVES, SIMULATED_FILE, About
 from ebac.logs.layout import Layout
@@ -151,7 +152,8 @@ def load(
     Warns
     -----
     UserWarning
-        When parts of an MCAP file are damaged: the rows in them are missing. `ebac.logs.read` gives more.
+        When parts of an MCAP file are damaged: the rows in them are missing; when its end is missing, because it was
+        cut or is still being written. `ebac.logs.read` gives more, and does not warn.
 
     Raises
     ------
@@ -178,6 +180,13 @@ def load(
         log = read(path, start=start, stop=stop, progress=progress)
         if log.condition.damaged:
             warnings.warn(f"{path}: {log.condition.damage}", stacklevel=2)
+        if not log.condition.complete:
+            rows = plural(len(log.trace), "whole row")
+            warnings.warn(
+                f"{path}: was cut, or is still being written: its end is missing; {rows} read. "
+                f"`ebac log repair {path}` makes a complete log of a cut one",
+                stacklevel=2,
+            )
         return log.trace
     readers: dict[str, Callable[[Path], Trace]] = {
         ".npz": Trace.from_npz,
