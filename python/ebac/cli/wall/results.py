@@ -193,8 +193,8 @@ def _without_bus(limited: Sequence[str]) -> str:
     if not limited:
         return ": the same to the bit without the bus by --device-permille"
     return (
-        f"; under {', '.join(limited)} the i2t limit of a drive held the torque, which a run without the bus "
-        "(--device-permille) has not"
+        f"; under {', '.join(limited)} the i2t limit of a drive held the torque; a run without the bus "
+        "(--device-permille) has no such limit"
     )
 
 
