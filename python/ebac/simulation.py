@@ -13,6 +13,7 @@ from ebac._util.arguments import require
 from ebac._util.fault_remedies import REMEDIES
 from ebac._util.foreign_worlds import foreign
 from ebac._util.kept_law import KeptLaw, law_error
+from ebac._util.raised import raised
 from ebac.laws import AnyLaw, CoreLaw, PythonLaw, design, law_name
 from ebac.laws.protocols import is_core_law
 from ebac.laws.tuned_laws import on_its_observer
@@ -61,12 +62,12 @@ class LoopFault(RuntimeError):
         cause = fault.name.lower().replace("_", " ")
         if hand is not None:
             model = type(trace.scenario.hand.model).__name__ if trace.scenario else "the hand"
-            cause = f"the hand {model} raised {type(hand).__name__}: {hand}"
+            cause = f"the hand {model} raised {raised(hand)}"
         elif world is not None:
             what = getattr(trace.scenario and trace.scenario.environment, "what", "the world")
-            cause = f"{what} raised {type(world).__name__}: {world}"
+            cause = f"{what} raised {raised(world)}"
         elif law is not None:
-            cause = f"the law {trace.law} raised {type(law).__name__}: {law}"
+            cause = f"the law {trace.law} raised {raised(law)}"
         elif fault is _core.Fault.LAW_NOT_FINITE:
             cause = f"{cause}: {trace.law or 'the law'} gave no finite force"
         elif limits is not None:

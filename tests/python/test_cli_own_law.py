@@ -235,3 +235,63 @@ def test_a_module_that_does_not_load_says_why() -> None:
     text = "try:\n    1 / 0\nexcept ZeroDivisionError as error:\n    raise ImportError('failed') from error\n"
     Path("stale.py").write_text(text, encoding="utf-8")
     assert "ZeroDivisionError" in run("wall", "--law", "stale.py:X", "--no-files").stderr
+
+
+RAISES = """
+class Raises:
+    name = "raises"
+
+    def __init__(self):
+        self.ticks = 0
+
+    def step(self, port):
+        self.ticks += 1
+        if self.ticks > 20:
+            raise RuntimeError("too warm")
+        return port.f_env
+
+    def reset(self):
+        self.ticks = 0
+
+
+class Undesigned(Raises):
+    @classmethod
+    def design(cls, facts, timing, **changes):
+        return cls(1 / 0)
+"""
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        ["wall"],
+        ["study", "-c", "d1K10"],
+        ["stiffest", "--delay", "1"],
+        ["worst"],
+        ["zwidth"],
+        ["map"],
+        ["shapes"],
+        ["tissue"],
+        ["engines"],
+        ["random-worlds", "--kind", "balls", "--hands", "2"],
+    ],
+    ids=lambda words: words[0],
+)
+def test_an_error_in_a_law_ends_every_command_in_one_line(words: list[str], mine: Path) -> None:
+    """`random-worlds` swallowed it, and all but `wall` ended with a traceback."""
+    mine.write_text(RAISES, encoding="utf-8")
+    result = run(*words, "--law", "mine.py:Raises", "--no-files")
+    assert result.exit_code == 1
+    assert isinstance(result.exception, SystemExit)
+    assert len(result.output.splitlines()) == 1
+    assert result.output.startswith("Error: raises: fault 4 (the law raises raised RuntimeError: ")
+    assert "too warm (mine.py, line 11)) in tick 20, t = 0.02 s: " in result.output
+
+
+def test_an_error_in_the_design_of_a_law_is_one_line(mine: Path) -> None:
+    mine.write_text(RAISES, encoding="utf-8")
+    result = run("study", "-c", "d1K10", "--law", "mine.py:Undesigned", "--no-files")
+    assert result.exit_code == 1
+    assert result.output == (
+        "Error: --law mine.py:Undesigned raises ZeroDivisionError: division by zero (mine.py, line 21)\n"
+    )

@@ -50,8 +50,28 @@ class Command(TyperCommand):
         """Run the command."""
         by_option.current.clear()
         by_option.current.update({p.name: wrong_input.option_name(p) for p in self.params})
-        with interrupts.interruptible(), silent():
+        with interrupts.interruptible(), silent(), _faults_in_one_line():
             return super().invoke(ctx)
+
+
+@contextmanager
+def _faults_in_one_line() -> Iterator[None]:
+    """End a command in one sentence when a run stopped on a fault, or a law of the user's own raised an error."""
+    try:
+        yield
+    except (typer.Exit, typer.Abort, _UsageError):
+        raise
+    except Exception as error:
+        from ebac.cli.own_law import raised_by_own
+        from ebac.simulation import LoopFault
+
+        if not isinstance(error, LoopFault):
+            if own := raised_by_own(error):
+                output.fail(own, code=output.FAILED)
+            raise
+        said = str(error).partition("; see .trace")[0]
+        law = f"{error.trace.law}: " if error.trace.law else ""
+        output.fail("; ".join(filter(None, [f"{law}{said}", error.remedy])), code=output.FAILED)
 
 
 class Group(TyperGroup):

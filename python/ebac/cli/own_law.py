@@ -20,6 +20,9 @@ FORM = (
     "a law of your own is given as FILE.py:NAME or MODULE:NAME, where NAME is a class or an object"
 )
 
+#: Files of the laws that were read, and the words on the command line that named them.
+_read: dict[str, str] = {}
+
 
 def own_law(word: str, option: str) -> AnyLaw:
     """Return the law that a word such as "mine.py:Mine" names.
@@ -59,7 +62,21 @@ def own_law(word: str, option: str) -> AnyLaw:
     return law  # type: ignore[no-any-return]
 
 
+def raised_by_own(error: BaseException) -> str:
+    """Return which law that was given on the command line raised an error, and where; "" when it was none."""
+    files = {frame.filename for frame in traceback.extract_tb(error.__traceback__)}
+    given = next((words for file, words in _read.items() if file in files), "")
+    return f"{given} raises {_last(error)}" if given else ""
+
+
 def _module(where: str, given: str) -> ModuleType:
+    """Return the module of a file or of a name, as `_imported` does, and remember who asked for it."""
+    module = _imported(where, given)
+    _read[str(module.__file__)] = given
+    return module
+
+
+def _imported(where: str, given: str) -> ModuleType:
     """Return the module of a file or of a name. What it prints goes to stderr: stdout may be a JSON document."""
     file = Path(where)
     if file.suffix == ".py" and not file.is_file():

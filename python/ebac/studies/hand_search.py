@@ -194,8 +194,10 @@ class HandSearch:
 
 
 def every_row(scenario: Scenario, law: CoreLaw | PythonLaw) -> Trace:
-    """Simulate, and keep what there is after a fault."""
+    """Simulate, and keep what there is after a fault; an error of a law in Python is raised."""
     try:
         return simulate(scenario, law)
     except LoopFault as fault:
+        if fault.__cause__ is not None:
+            raise
         return fault.trace

@@ -88,6 +88,8 @@ def random_worlds(
         For a number that is not whole where it must be, or a `moving` that is neither True nor False.
     KeyError
         For an unknown law, kind or device.
+    LoopFault
+        When a law in Python raised an error, which is its cause.
     """
     require(moving, bool, "ebac.random_worlds", "moving=True or False")
     kinds, devices, stiffnesses, delays = (
