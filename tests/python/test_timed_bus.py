@@ -160,6 +160,25 @@ def test_the_command_counts_late_answers(tmp_path: Path) -> None:
     assert "answers came after the loop had stopped waiting" in shown
 
 
+def test_the_doctor_finds_the_limits_that_a_run_refuses(tmp_path: Path) -> None:
+    file = tmp_path / "joystick.toml"
+    text = EXAMPLE.read_text().replace(
+        "[limits]", "[limits]\nthermal_time = 41\npeak_current = 50", 1
+    )
+    file.write_text(text)
+    ran = CliRunner().invoke(app, ["doctor", str(file), "--json"])
+    assert ran.exit_code == 1
+    rows = {row["what"]: row for row in json.loads(ran.stdout)["rows"]}
+    for limit, value in (("limits.thermal_time", "41 s"), ("limits.peak_current", "50 A")):
+        assert rows[limit]["verdict"] == "bad"
+        assert f"{limit} = {value}: is beyond the " in rows[limit]["found"]
+        assert ", line " in rows[limit]["found"]
+        assert "--beyond-rating" in rows[limit]["remedy"]
+    file.write_text(EXAMPLE.read_text())
+    rows = json.loads(CliRunner().invoke(app, ["doctor", str(file), "--json"]).stdout)["rows"]
+    assert not [row for row in rows if row["what"].startswith("limits.")]
+
+
 @pytest.mark.parametrize(
     ("share", "verdict"), [(0.78, "good"), (0.7, "fair"), (0.5, "fair"), (0.4, "bad")]
 )

@@ -32,15 +32,20 @@ def check_rating(known: Configuration) -> None:
         For the first limit beyond; the message has file, line, both numbers and the remedy.
     """
     for name, wrong in beyond_rating(known):
-        other = (
-            "look it up in your motor's data sheet"
-            if name == "thermal_time"
-            else "correct the device's motor"
-        )
-        raise ConfigurationError(
-            f"{wrong}: the motor may burn; lower it, {other}, or pass --beyond-rating (in Python beyond_rating=True), "
-            "which allows every limit beyond and notes each"
-        )
+        raise ConfigurationError(f"{wrong}: the motor may burn; {remedy(name)}")
+
+
+def remedy(name: str) -> str:
+    """Return what to do about a limit that is beyond the data sheet."""
+    other = (
+        "look it up in your motor's data sheet"
+        if name == "thermal_time"
+        else "correct the device's motor"
+    )
+    return (
+        f"lower it, {other}, or pass --beyond-rating (in Python beyond_rating=True), "
+        "which allows every limit beyond and notes each"
+    )
 
 
 def beyond_rating(known: Configuration) -> list[tuple[str, str]]:

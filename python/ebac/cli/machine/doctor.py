@@ -22,7 +22,8 @@ def doctor(
     configuration: Annotated[
         Path | None,
         typer.Argument(
-            help="Configuration of a run: also report what its drives do when the loop stalls, and the time on its bus."
+            help="Configuration of a run: also report limits beyond the motor, what its drives do when the loop "
+            "stalls, and the time on its bus."
         ),
     ] = None,
     priority: Annotated[
@@ -37,7 +38,8 @@ def doctor(
 
     Prints how to fix each one. Kernel, clock, limits and CAN interfaces are checked; nothing is changed. "fair" means
     that some ticks will be late, that answers on the bus may be, or that a drive whose loop stalls can throw the handle
-    to the end of the workspace, "bad" that a control loop cannot run as requested, with exit code 1.
+    to the end of the workspace, "bad" that a control loop cannot run as requested or that `ebac run` refuses a limit,
+    with exit code 1.
 
     **Examples**
 
@@ -53,7 +55,12 @@ def doctor(
     with output.refusing():
         findings = examine(RealTime(priority=priority, cpu=cpu))
         if configuration is not None:
-            findings = [*findings, *_stalls(configuration), _bus(configuration)]
+            findings = [
+                *findings,
+                *_rating(configuration),
+                *_stalls(configuration),
+                _bus(configuration),
+            ]
     verdicts = [finding.verdict for finding in findings]
     worst = next(v for v in ("bad", "fair", "good") if v in verdicts)
     if as_json:
@@ -95,6 +102,23 @@ def _bus(path: Path) -> Finding:
         else f"the slowest answer must leave {100 * _MARGIN:.0f} % of the time the loop waits: raise bus.answer_share "
         f"({known.answer_share:g} now, at most 0.9) or the bit rate, lengthen timing.dt, or use a second bus",
     )
+
+
+def _rating(path: Path) -> list[Finding]:
+    """Return each limit of a configuration that is beyond the data sheet of its motor: `ebac run` refuses it."""
+    from ebac.hardware import rating
+    from ebac.hardware.configuration import Configuration
+    from ebac.realtime import Finding
+
+    return [
+        Finding(
+            what=f"limits.{name}",
+            found=f"{text}: `ebac run` refuses it, the motor may burn",
+            verdict="bad",
+            remedy=rating.remedy(name),
+        )
+        for name, text in rating.beyond_rating(Configuration.load(path))
+    ]
 
 
 def _stalls(path: Path) -> list[Finding]:
