@@ -274,6 +274,31 @@ def test_a_wall_that_no_table_names_is_noted() -> None:
     assert "no [environment]: the default wall of 10000 N/m stands at 0 m" in said
 
 
+@pytest.mark.parametrize("as_variant", [False, True])
+def test_a_law_made_for_another_device_is_noted(as_variant: bool) -> None:
+    known = Configuration.load(EXAMPLE)
+    changes = {"mass": 0.6, "damping": 2.0, "peak_force": 42.38, "kp": 0.2}
+    law = ebac.laws.Variant("ebac", changes) if as_variant else "ebac"
+    other = known.replace(law=law, changes={} if as_variant else changes)
+    (said,) = doubtful_run.doubts(other)  # neither what agrees, nor what no device has
+    assert said.startswith("law.mass = 0.6 kg, but the device has 0.25 kg: ")
+    several = {"count": 1e-4, "current_lag": 1e-3, "peak_force": 20.0}
+    said = doubtful_run.doubts(known.replace(changes=several)).pop(0)
+    assert said.startswith("law.count = 0.0001 m, but the device has 3.068e-05 m: ")
+    assert len(doubtful_run.doubts(known.replace(changes=several))) == 3
+
+
+def test_a_sensor_of_the_device_without_one_of_the_run_is_noted() -> None:
+    text = EXAMPLE.read_text()
+    before, _, rest = text.partition("[sensor]")
+    bare = before + rest[rest.index("[recording]") :]
+    described = bare + "[device.sensor]\nnoise = 0.05\n"
+    (said,) = doubtful_run.doubts(Configuration.from_toml(described, name="bare"))
+    assert said.startswith("[device.sensor] without [sensor]: this run has no force sensor")
+    for quiet in (bare, text + "[device.sensor]\nnoise = 0.05\n", f"{described}fitted = false\n"):
+        assert doubtful_run.doubts(Configuration.from_toml(quiet, name="quiet")) == []
+
+
 def test_a_soft_wall_behind_the_stops_is_noted() -> None:
     known = Configuration.load(EXAMPLE)
     (said,) = doubtful_run.doubts(known.replace(limits=known.limits.replace(edge=0.06, end=0.07)))

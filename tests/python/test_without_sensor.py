@@ -173,3 +173,16 @@ def test_a_session_refuses_an_observer_without_a_force_and_keeps_what_it_had(
             session.change(observer=True)
         assert session.choices.observer is False
         assert session.running
+
+
+def test_switching_a_noisy_sensor_off_is_no_doubt(tmp_path: Path) -> None:
+    """It printed a note about the opposite option, --device-sensor."""
+    file = tmp_path / "mine.toml"
+    file.write_text("[device.sensor]\nnoise = 0.05\n", encoding="utf-8")
+    words = ["wall", "--scenario", str(file), "--law", "direct", "--seconds", "0.1", "--no-files"]
+    ran = CliRunner().invoke(app, [*words, "--no-device-sensor"])
+    assert ran.exit_code == 0
+    assert "Note" not in ran.output
+    file.write_text("[device.sensor]\nnoise = 0.05\nfitted = false\n", encoding="utf-8")
+    ran = CliRunner().invoke(app, words)
+    assert "fitted = false, but noise = 0.05 N" in ran.output  # in a file it is doubtful

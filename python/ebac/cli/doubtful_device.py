@@ -19,6 +19,8 @@ CURRENT, FORCE, MASS = (0.05, 50.0), (0.1, 1e3), (1e-3, 20.0)
 COUNT = 2e-4
 #: Steps of a force sensor from which on `ebac` is neither quiet nor keeps every wall [N].
 COARSE = 0.1
+#: Option that takes the force sensor off a device, or gives it one.
+SENSOR_OFF = "--device-sensor"
 #: No lever turns farther from its middle [rad], nor moves a cable at its drum farther [m].
 TURN, WAY = 1.6, 1.0
 
@@ -32,6 +34,8 @@ def tell(file: Path | str, device: Device) -> None:
 def tell_change(option: str, before: Device, after: Device) -> None:
     """Say on stderr what an option makes doubtful of a device."""
     known = doubts(before)
+    if option == SENSOR_OFF and not after.sensor.fitted:  # its noise is meant to be unused
+        known += _unused_noise(after)
     for text in doubts(after):
         if text not in known:
             output.note(f"{option}: {text}")
@@ -68,11 +72,7 @@ def doubts(device: Device) -> list[str]:
             f"device.sensor.quantum = {device.sensor.quantum:g} N: with steps of the force from {COARSE:g} N on `ebac` "
             "with the observer is not quiet and can lose walls; --no-observer runs it on the encoder alone"
         )
-    if not device.sensor.fitted and device.sensor.noise > 0:
-        found.append(
-            f"device.sensor: fitted = false, but noise = {device.sensor.noise:g} N: the device has no force "
-            "sensor, and the noise is not used; leave out fitted where it has one"
-        )
+    found += _unused_noise(device)
     found += _far_stops(device)
     drum, sector = device.capstan.drum_radius, device.capstan.sector_radius
     if drum > sector:
@@ -86,6 +86,15 @@ def doubts(device: Device) -> list[str]:
             "(g x 1e-3), rotor_inertia in kg m^2 (g cm^2 x 1e-7)"
         )
     return found
+
+
+def _unused_noise(device: Device) -> list[str]:
+    if device.sensor.fitted or not device.sensor.noise > 0:
+        return []
+    return [
+        f"device.sensor: fitted = false, but noise = {device.sensor.noise:g} N: the device has no force "
+        "sensor, and the noise is not used; leave out fitted where it has one"
+    ]
 
 
 def _far_stops(device: Device) -> list[str]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ebac.cli import doubtful_device, doubtful_sensor, doubtful_wall, output
+from ebac.cli import doubtful_device, doubtful_law, doubtful_sensor, doubtful_wall, output
 
 if TYPE_CHECKING:
     from ebac.hardware import Configuration
@@ -42,6 +42,27 @@ def doubts(known: Configuration) -> list[str]:
         *_edge_behind_the_stops(known),
         *_weak_drives(known),
         *_loose_limits(known),
+        *_sensor_of_the_device_alone(known),
+        *_other_device_of_the_law(known),
+    ]
+
+
+def _other_device_of_the_law(known: Configuration) -> list[str]:
+    device, timing = known.device, known.timing
+    has_sensor = known.sensor is not None
+    return doubtful_law.doubts(known.law, known.changes, device, timing, sensor=has_sensor)
+
+
+def _sensor_of_the_device_alone(known: Configuration) -> list[str]:
+    from ebac._util.toml import parsed
+
+    table = parsed(known.text).get("device", {}).get("sensor", {})
+    if known.sensor is not None or not table or not table.get("fitted", True):
+        return []
+    return [
+        "[device.sensor] without [sensor]: this run has no force sensor, the gains of its force loop are 0, and "
+        "[device.sensor] is not used; add [sensor] with host and "
+        "counts_per_force, or leave out [device.sensor]"
     ]
 
 
