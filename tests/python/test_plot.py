@@ -347,3 +347,20 @@ def test_changes_of_a_run_are_marked_and_told(run: Run) -> None:
     at_the_time = [ax for ax in figure.axes if ax.dataLim.x0 <= 0.4 <= ax.dataLim.x1]
     assert len(at_the_time) >= 3
     assert all("1, 2" in [text.get_text() for text in ax.texts] for ax in at_the_time)
+
+
+def test_one_axis_of_a_column_is_chosen_as_files_name_it() -> None:
+    """`ebac log info`, CSV and Parquet call it x_1; it was refused."""
+    device = ebac.Device(kinematics=ebac.Linear(axes=2))
+    trace = ebac.simulate(ebac.Scenario(device=device, seconds=0.1), "direct")
+    (panel,) = plot_columns(trace, ["x_1", "true.x_0"]).axes
+    assert [line.get_label() for line in panel.lines] == ["x, axis 1", "true.x, axis 0"]
+    np.testing.assert_allclose(panel.lines[0].get_ydata(), 1e3 * trace["x"][:, 1])
+    with pytest.raises(ValueError, match=r"^x_2: x has axes 0 to 1$"):
+        plot_columns(trace, ["x_2"])
+    with pytest.raises(KeyError, match="y_0"):
+        plot_columns(trace, ["y_0"])
+    flat = ebac.simulate(ebac.Scenario(seconds=0.1), "direct")
+    assert len(plot_columns(flat, ["x_0"]).axes[0].lines) == 1
+    with pytest.raises(ValueError, match=r"^x_1: x has only axis 0$"):
+        plot_columns(flat, ["x_1"])

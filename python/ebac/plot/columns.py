@@ -31,7 +31,7 @@ def plot_columns(trace: Trace, names: Sequence[str]) -> Picture:
     trace : Trace
         At least two rows.
     names : sequence of str
-        Columns; one of several axes gives a line for each.
+        Columns; one of several axes gives a line for each, and NAME_AXIS, as "x_0", that axis alone.
 
     Returns
     -------
@@ -43,7 +43,7 @@ def plot_columns(trace: Trace, names: Sequence[str]) -> Picture:
     KeyError
         For a column that is not there.
     ValueError
-        When the trace is too short, or no column is named.
+        When the trace is too short, no column is named, or one has no such axis.
     """
     require(trace, Trace, "ebac.plot.plot_columns", "a Trace")
     names = several("plot_columns: names", names)
@@ -51,8 +51,8 @@ def plot_columns(trace: Trace, names: Sequence[str]) -> Picture:
         raise ValueError(f"the trace has {len(trace)} rows: a figure needs at least 2")
     panels: dict[str, list[str]] = {}
     for name in dict.fromkeys(names):
-        trace[name]  # refuses a column that is not there
-        panels.setdefault(trace.columns[name].unit, []).append(name)
+        column, _ = _axes(trace, name)
+        panels.setdefault(trace.columns[column].unit, []).append(name)
     figure = new_figure(9.5, 0.8 + 2.4 * len(panels))
     grid = figure.subplots(len(panels), 1, sharex=True, squeeze=False)
     for ax, (unit, columns) in zip(grid[:, 0], panels.items(), strict=True):
@@ -110,9 +110,22 @@ def _dots(ax: Axes, trace: Trace, columns: Sequence[str]) -> None:
     set_decades(ax, limit)
 
 
+def _axes(trace: Trace, given: str) -> tuple[str, range]:
+    """Return the column that a name means, and its axes: NAME_AXIS, as files have it, means one of several."""
+    name, _, axis = given.rpartition("_")
+    if given in trace.columns or not axis.isdecimal() or name not in trace.columns:
+        return given, range(1 if trace[given].ndim == 1 else trace.axes)
+    axes = 1 if trace[name].ndim == 1 else trace.axes
+    if int(axis) >= axes:
+        last = "only axis 0" if axes == 1 else f"axes 0 to {axes - 1}"
+        raise ValueError(f"{given}: {name} has {last}")
+    return name, range(int(axis), int(axis) + 1)
+
+
 def _lines(trace: Trace, columns: Sequence[str]) -> Iterator[tuple[str, Values]]:
-    for name in columns:
-        for axis in range(1 if trace[name].ndim == 1 else trace.axes):
+    for given in columns:
+        name, axes = _axes(trace, given)
+        for axis in axes:
             label = name if trace[name].ndim == 1 else f"{name}, axis {axis}"
             values = trace.axis(name, axis)
             if not np.isfinite(values).any():

@@ -188,7 +188,7 @@ def plot(
         typer.Option(
             "--column",
             "-c",
-            help="Columns to draw, separated by commas.",
+            help="Columns to draw, separated by commas; x_0 is axis 0 of x alone.",
             show_default="position, force, beta and energy",
         ),
     ] = None,
