@@ -590,6 +590,7 @@ def test_specs_of_the_device_file_of_its_page() -> None:
     Path("device.toml").write_text(file, encoding="utf-8")
     answer = document("specs", "--scenario", "device.toml")
     assert answer["device"] == "device.toml"
+    assert {(row["paper"], row["remark"]) for row in answer["rows"]} == {(None, None)}
     values = {row["name"]: row["value"] for row in answer["rows"]}
     assert values["mass at the handle"] == pytest.approx(0.1775)
     assert values["continuous force"] == pytest.approx(7.5)

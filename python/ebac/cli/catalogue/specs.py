@@ -65,7 +65,7 @@ def specs(
         sheet = spec_sheet(chosen)
         drawn = _draw(chosen, out)
     if as_json:
-        rows = [spec.row() for spec in sheet]
+        rows = [spec.row() if scenario is None else _of_own(spec) for spec in sheet]
         typer.echo(output.document("specs", rows, device=name, written=drawn))
         return
     if scenario is None:
@@ -109,6 +109,11 @@ def _of_file(file: Path) -> tuple[Device, str]:
         preset = parsed(known.text).get("device", {}).get("preset", "joystick")
         device, base = known.device, f"device preset {preset}"
     return device, f"what it leaves out is that of the {base}"
+
+
+def _of_own(spec: Spec) -> dict[str, str | float | None]:
+    """Return a row of a device that is not the paper's: its number is none to compare with, nor is a remark on it."""
+    return {**spec.row(), "paper": None, "remark": None}
 
 
 def _show_beside_paper(sheet: list[Spec]) -> None:
