@@ -472,6 +472,17 @@ def test_the_command_writes_a_folder(tmp_path: Path) -> None:
     }
 
 
+def test_a_law_without_any_wall_has_a_reason() -> None:
+    """It stood above a vibration of 0 at stiffer walls, without a word."""
+    words = ("--law", "direct", "--delay", "8", "--points", "2", "--seconds", "1")
+    text = " ".join(command(*words, "--least-stiffness", "5000", "--no-files").split())
+    assert re.search(
+        r"direct, delay 8: none, since 5 kN/m already fails: [a-z ]+.*\. Walls count up to the first that fails",
+        text,
+    )
+    assert "already fails" not in command(*SMALL, "--no-files")
+
+
 def test_words_for_the_end_of_a_wall_are_explained() -> None:
     words = ("--law", "direct,ebac", "--delay", "0", "--points", "2", "--seconds", "1")
     text = " ".join(command(*words, "--no-files").split())

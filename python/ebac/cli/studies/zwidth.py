@@ -224,12 +224,38 @@ def _show(found: ZWidth) -> None:
             f"Energy and usable hold for {found.random_hands} as well; one that pulls harder than {PULL:g} N is not "
             "counted."
         )
+    for sentence in _none_because(found):
+        output.say(sentence)
     zwidth_vibration.show(found)
     output.say(
         "Simulation. Wall stiffness, wall damping and delay vary as above; everything else:",
         style="bold",
     )
     output.indented(_shared(descriptions.describe(found.base)).replace("; ", "\n"))
+
+
+def _none_because(found: ZWidth) -> list[str]:
+    """Return why a law has no stiffest wall, a sentence for each law and reason: it fails at the softest already."""
+    from ebac.studies.zwidth.result import TOO_SOFT, VIBRATION
+
+    why = {
+        "limit cycle": "the handle swings on in a limit cycle",
+        VIBRATION: "the force is not quiet, 3 detection thresholds or more",
+        "energy": f"a hand draws more than {found.epsilon:g} J (--epsilon)",
+        TOO_SOFT: "less than half of the stiffness is there at rest",
+    }
+    softest = f"{found.least_stiffness / 1e3:g} kN/m"
+    without: dict[tuple[str, str], list[str]] = {}
+    for i, law in enumerate(found.laws):
+        for d, delay in enumerate(found.delays):
+            if not found.limits["usable"][i, d, 0] > 0:
+                end = found.ended_by(law, delay)[0]
+                without.setdefault((law, end), []).append(str(delay))
+    return [
+        f"{law}, delay {', '.join(delays)}: none, since {softest} already fails: {why[end]}. Walls "
+        "count up to the first that fails; the table below shows stiffer ones each by itself."
+        for (law, end), delays in without.items()
+    ]
 
 
 def _shared(described: str) -> str:
