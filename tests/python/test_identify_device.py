@@ -2,6 +2,7 @@
 
 import json
 import math
+import tomllib
 from pathlib import Path
 
 import numpy as np
@@ -237,6 +238,25 @@ def test_the_command_writes_a_report_and_json(tmp_path: Path, trace: ebac.Trace)
     assert {row["name"] for row in document["rows"]} >= {"M_h", "B_h", "coulomb", "weight"}
     assert document["compensation"]["friction"] > 0.3
     assert (out / "device.html").read_text().count("data:image/png") == 1
+
+
+def test_the_command_prints_what_a_device_file_takes(tmp_path: Path, trace: ebac.Trace) -> None:
+    """It printed a compensation in Python, and nothing to paste."""
+    trace.to_npz(tmp_path / "log.npz")
+    file = tmp_path / "mine.toml"
+    file.write_text("[device.motor]\nrotor_inertia = 1e-6\n", encoding="utf-8")
+    assert trace.scenario is not None
+    device = trace.scenario.device
+    lighter = ebac.Scenario.load(file).device.reflected_mass
+    for more, rotor in ([], device.reflected_mass), (["--scenario", str(file)], lighter):
+        words = ["identify", "device", str(tmp_path / "log.npz"), *more]
+        shown = CliRunner().invoke(app, words, env={"COLUMNS": "200"}).stdout
+        _, _, table = shown.partition("In the file of the device:\n")
+        found = tomllib.loads(table)["device"]["mechanics"]
+        assert found["handle_mass"] == pytest.approx(device.mass - rotor, rel=0.03)
+        assert found["damping"] == pytest.approx(device.mechanics.damping, rel=0.05)
+        assert found["coulomb"] == pytest.approx(device.mechanics.coulomb, rel=0.05)
+        assert "Compensation" not in table
 
 
 def test_the_check_command(tmp_path: Path) -> None:

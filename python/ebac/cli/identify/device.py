@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from ebac.cli import output
+from ebac.cli import output, setting
 from ebac.cli.identify import options as given
 from ebac.cli.identify import report as reporting
 
 if TYPE_CHECKING:
+    from ebac._core import Device
     from ebac.identify import DeviceResult
 
 
@@ -18,6 +20,14 @@ def device(
     log: given.Log,
     reading: given.Reading,
     to: reporting.ReportOptions,
+    scenario: Annotated[
+        Path | None,
+        typer.Option(
+            help="A scenario in TOML with your device: the rotor of its motor is part of M_h, and not of handle_mass.",
+            show_default="the reference device",
+            rich_help_panel=given.FIT,
+        ),
+    ] = None,
     as_json: output.AsJson = False,
 ) -> None:
     """Identify a device: mass, damping, Coulomb and Stribeck friction, weight, and tau_static of eq. (2).
@@ -38,8 +48,10 @@ def device(
     to.folder()
     with output.refusing():
         recording = reading.load(log)
+        known = setting.base_scenario(scenario).device
         result = fit_device(recording)
-    files = _write(to, result)
+    table = _mechanics(result, known, scenario)
+    files = _write(to, result, table)
     if as_json:
         more = result.to_dict()
         rows = more.pop("rows")
@@ -58,6 +70,9 @@ def device(
     for text in _notes(result):
         if not (result.impossible and text in result.misses):  # the error says it
             output.say(text)
+    if table:
+        output.say("In the file of the device:")
+        output.indented(table)
     if to.out is not None:
         output.list_files(to.out, files)
     _end(result)
@@ -102,7 +117,32 @@ def _static(result: DeviceResult) -> list[str]:
     ]
 
 
-def _write(to: reporting.ReportOptions, result: DeviceResult) -> list[str]:
+def _mechanics(result: DeviceResult, known: Device, file: Path | None) -> str:
+    """Return what was found as the table of a device file; "" for a joint, and where no device is like that."""
+    if result.recording.rotary or result.impossible:
+        return ""
+    whose = "of the reference device, --scenario FILE takes yours" if file is None else f"of {file}"
+    rotor = known.reflected_mass
+    lines = ["[device.mechanics]"]
+    for name, key in (("M_h", "handle_mass"), ("B_h", "damping"), ("coulomb", "coulomb")):
+        found = result.estimates.get(name)
+        if found is None:
+            continue
+        value, why = found.value, ""
+        if name == "M_h":
+            value, why = value - rotor, f": M_h less {rotor:.4g} kg, the rotor {whose}"
+        if not found.determined:
+            lines.append(f"# {key}: {name} is not determined by this log")
+        elif name == "M_h" and value <= 0:
+            lines.append(
+                f"# {key}: M_h = {found.value:.4g} kg is less than {rotor:.4g} kg, the rotor {whose}"
+            )
+        else:
+            lines.append(f"{key} = {max(value, 0.0):.4g} # {found.unit}{why}")
+    return "\n".join(lines)
+
+
+def _write(to: reporting.ReportOptions, result: DeviceResult, table: str) -> list[str]:
     from ebac.identify.figures import plot_device
 
     return reporting.report(
@@ -111,6 +151,6 @@ def _write(to: reporting.ReportOptions, result: DeviceResult) -> list[str]:
         title="The device of eq. (6)",
         rows=[reporting.line(e) for e in result.estimates.values()],
         careful=[f"{name} is not determined by this log." for name in result.undetermined],
-        notes=[*result.recording.remarks, *_notes(result)],
+        notes=[*result.recording.remarks, *_notes(result), *([table] if table else [])],
         draw=[lambda: plot_device(result)],
     )
