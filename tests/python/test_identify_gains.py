@@ -14,6 +14,7 @@ from typer.testing import CliRunner
 import ebac
 from ebac import identify
 from ebac.cli import app
+from ebac.cli.identify.gains import _tell_other_device
 from ebac.identify import Limits, Recording, Target, fit_gains, fit_loop
 from ebac.identify.figures import plot_gains
 from ebac.identify.gains.check import MEASURES, check_gains
@@ -342,6 +343,22 @@ def test_the_command_writes_a_report_and_json(
     assert document["rows"][-1]["broken"] == []
     assert (out / "gains.html").read_text().count("data:image/png") == 1
     assert (out / "gains.png").stat().st_size > 10_000
+
+
+def test_a_log_of_another_device_than_that_of_the_file_is_noted(
+    loop, capsys: pytest.CaptureFixture[str]
+) -> None:
+    file, device = Path("mine.toml"), loop.device
+    heavy = device.mechanics.replace(handle_mass=device.mechanics.handle_mass + 0.35)
+    _tell_other_device(file, device.replace(mechanics=heavy), loop)
+    said = " ".join(capsys.readouterr().err.split())
+    found = loop.found.estimates["M_h"]
+    assert (
+        f"mine.toml: mass at the handle = {found.value + 0.35:.4g} kg, but the log shows M_h"
+        in said
+    )
+    _tell_other_device(file, device, loop)
+    assert capsys.readouterr().err == ""
 
 
 @pytest.mark.slow

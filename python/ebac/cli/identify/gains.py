@@ -14,9 +14,11 @@ from ebac.cli.identify import report as reporting
 
 if TYPE_CHECKING:
     from ebac import Device, Wall
-    from ebac.identify import GainsResult
+    from ebac.identify import GainsResult, LoopModel
 
 LIMITS = "Constraints"
+#: Share by which a log may differ from the file of its device.
+OTHER_DEVICE = 0.2
 
 
 def gains(
@@ -151,6 +153,8 @@ def gains(
             robust=robust,
         )  # fmt: skip
         result = fit_gains(loop, law, limits=limits, vary=vary, progress=progress)
+    if scenario is not None and device is not None:
+        _tell_other_device(scenario, device, loop)
     files = _write(to, result, scenario)
     if as_json:
         more = result.to_dict()
@@ -196,6 +200,26 @@ def _parts(file: Path | None) -> tuple[Device | None, Wall | None, int]:
             "a file with a wall, or one without [environment]"
         )
     return device, base.environment, base.timing.delay
+
+
+def _tell_other_device(file: Path, device: Device, loop: LoopModel) -> None:
+    """Say on stderr what of the device in the log is not that of the file, beyond its interval and a share."""
+    if loop.found is None:
+        return
+    for name, what, value in (
+        ("M_h", "mass at the handle", device.mass),
+        ("B_h", "damping", device.mechanics.damping),
+        ("coulomb", "coulomb", device.mechanics.coulomb),
+    ):
+        found = loop.found.estimates.get(name)
+        if found is None or not found.determined or found.low <= value <= found.high:
+            continue
+        if abs(found.value - value) > OTHER_DEVICE * max(abs(value), abs(found.value)):
+            output.note(
+                f"--scenario {file}: {what} = {value:.4g} {found.unit}, but the log shows {name} = {found.value:.4g} "
+                f"{found.unit} ({found.low:.4g} to {found.high:.4g}), and the gains are chosen for that of the log; "
+                "check that it is a log of this device"
+            )
 
 
 def _cells(result: GainsResult) -> list[dict[str, str]]:
