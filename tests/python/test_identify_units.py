@@ -65,6 +65,18 @@ def test_the_command_names_the_unit_before_the_table(tmp_path: Path, arm: Record
     assert "kgf" not in after.replace("kgf.npz (fitted)", "")
 
 
+def test_a_unit_that_contradicts_its_heading_is_noted(tmp_path: Path, arm: Recording) -> None:
+    """The remark stood among ten others, dim."""
+    assert arm.force is not None
+    rows = np.column_stack([arm.t, arm.x, arm.force])
+    file = tmp_path / "arm.csv"
+    np.savetxt(file, rows, delimiter=",", header="t [s],x [m],force [N]", comments="")
+    words = ["identify", "log", str(file)]
+    said = CliRunner().invoke(app, [*words, "--unit", "x=inch"]).stderr
+    assert "Note: arm.csv: --unit x=inch: column 'x [m]' says m, and --unit is followed" in said
+    assert "Note" not in CliRunner().invoke(app, [*words, "--unit", "x=m"]).stderr
+
+
 @pytest.mark.parametrize("force", ["Kraft", "Kraft [N]", "Fz [N]", "Fy"])
 def test_german_headings_and_axes_of_a_sensor_are_known(
     force: str, tmp_path: Path, arm: Recording

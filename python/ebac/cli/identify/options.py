@@ -10,6 +10,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from ebac.cli import output
+
 if TYPE_CHECKING:
     from ebac.identify import Recording, Target
 
@@ -211,10 +213,11 @@ class Reading:
                 raise ValueError(
                     f"{option} = {lag:g} s: must be 0, or lie in [{LEAST_LAG:g}, 0.1] s"
                 )
-        return load(
+        units = pairs(self.unit, "--unit")
+        read = load(
             path,
             columns=pairs(self.column, "--column"),
-            units=pairs(self.unit, "--unit"),
+            units=units,
             rate=self.rate,
             lag=self.lag,
             current_lag=self.current_lag,
@@ -227,6 +230,16 @@ class Reading:
             torque_constant=self.torque_constant,
             force_constant=self.force_constant,
         )
+        for key, unit in units.items():
+            for text in read.remarks:
+                if text.startswith(f"{key}: taken as ") and (
+                    says := text.partition("as asked, ")[2]
+                ):
+                    output.note(
+                        f"{read.name}: --unit {key}={unit}: {says}, and --unit is followed; leave it out where the "
+                        "heading is right"
+                    )
+        return read
 
 
 def given_logs(
