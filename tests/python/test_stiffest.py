@@ -303,3 +303,19 @@ def test_a_light_device_with_two_samples_of_delay_loses_hands_on_the_encoder_alo
     [row] = stiffest(damper, stiffnesses=[3e3, 10e3], base=base).rows
     assert row.good_in_time_N_per_m == 3e3
     assert (row.good_drawn_J or 0) < 1e-4
+
+
+def test_bodies_are_refused_in_the_words_of_the_command(tmp_path: Path) -> None:
+    """It spoke of Operators.grid(approach_m=0), which is Python."""
+    file = tmp_path / "mine.toml"
+    file.write_text('[environment]\ntype = "Disc"\n', encoding="utf-8")
+    words = ["--scenario", str(file), "--law", "ebac", "--no-files"]
+    refused = CliRunner().invoke(app, ["stiffest", *words])
+    assert refused.exit_code == 2
+    assert f"--scenario {file}: its environment is a Disc, and this search sets" in refused.stderr
+    refused = CliRunner().invoke(app, ["study", *words])
+    assert refused.exit_code == 2
+    assert (
+        "needs a Wall, the scenario has a Disc; start on the surface: --approach 0"
+        in refused.stderr
+    )

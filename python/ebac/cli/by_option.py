@@ -46,6 +46,12 @@ def in_options(message: str) -> str:
     message = message.replace("observer=True", "--observer")
     if "--device-counts" in current.values() and re.match(r"\w+\.count = ", message):
         message += "; it is the way of the handle per count of the encoder: give more counts per turn, --device-counts"
+    if "--approach" in current.values():
+        message = re.sub(
+            r"start on the surface, as with Operators.*",
+            "start on the surface: --approach 0",
+            message,
+        )
     message = re.sub(r"""columns=(\{'.+?['"]\})""", _columns, message)
     for pattern in (r"(?:[\w ]+: )?([A-Za-z_.]+)(?= ?= )", r"(?:[a-z_]+: )?([a-z_]+)(?= \S+: )"):
         found = re.match(pattern, message)

@@ -14,6 +14,7 @@ from ebac.cli.files import ResultOptions
 from ebac.cli.studies import changed_laws, short_runs, study_results
 
 if TYPE_CHECKING:
+    from ebac.scenario import Scenario
     from ebac.studies import Stiffest
 
 
@@ -73,9 +74,11 @@ def stiffest(
     with output.refusing():
         laws = changed_laws.beside(by_name.laws(law or ["all"]), change or [])
         _check(share, wall_stiffness or ())
+        base = from_options.scenario(device, run)
+        _check_wall(base, run.scenario)
         given: dict[str, Any] = {
             "population": hands.operators(),
-            "base": from_options.scenario(device, run),
+            "base": base,
             "share": share,
             "seed": hands.seed,
             "threads": threads,
@@ -89,6 +92,18 @@ def stiffest(
         folder, "stiffest", found.to_json(), as_json=as_json,
         fill=lambda draft: _fill(draft, found, to), show=lambda: _show(found),
     )  # fmt: skip
+
+
+def _check_wall(base: Scenario, file: Path | None) -> None:
+    """Refuse a world whose stiffness the search cannot set."""
+    from ebac._core import Wall
+
+    if not isinstance(base.environment, Wall):
+        raise ValueError(
+            f"--scenario {file}: its environment is a {type(base.environment).__name__}, and this search sets the "
+            'stiffness of a Wall; give [environment] the type = "Wall", or leave [environment] out; `ebac study '
+            "--approach 0` and `ebac random-worlds` take bodies"
+        )
 
 
 def _check(share: float, stiffnesses: Sequence[float]) -> None:
