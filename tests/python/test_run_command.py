@@ -194,7 +194,7 @@ def test_a_fault_is_exit_code_1_and_keeps_the_log(config: Path, tmp_path: Path) 
     out = tmp_path / "out"
     text, errors = started(config, out, "--seconds", "5").communicate(timeout=PATIENCE)
     assert "fault 14 (overspeed)" in errors
-    assert "ebac drive signs FILE" in " ".join(errors.split())
+    assert f"ebac drive signs {config}`" in " ".join(errors.split())
     assert "reset-fault" not in text
     (log,) = out.glob("*.mcap")
     assert log.name in errors.replace("\n", "")

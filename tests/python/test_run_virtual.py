@@ -18,7 +18,7 @@ from ebac.cli.files import FigureOptions
 from ebac.cli.run import names
 from ebac.cli.run.live import lines
 from ebac.hardware import Configuration, Run
-from ebac.hardware.lateness import lateness, lateness_of
+from ebac.hardware.lateness import explained, lateness, lateness_of
 from ebac.hardware.virtual_device import VirtualDevice
 from ebac.simulation import LoopFault
 
@@ -169,7 +169,13 @@ def test_a_fault_by_time_names_the_lateness_and_the_doctor(fault: ebac.Fault) ->
             "without hardware, or with nobody at the handle, let the loop be late: bus.silent = 50"
             in notes[0]
         )
-        assert "or more; only then look at cables" in notes[0]
+        assert "or more; only then look at `bus.missing`, `bus.late`, cables" in notes[0]
+
+
+def test_a_fault_of_speed_names_the_file_that_was_run() -> None:
+    fault = LoopFault(ebac.Fault.OVERSPEED, late_trace(ebac.Fault.OVERSPEED))
+    assert "run `ebac drive signs mine.toml`: a motor" in explained(fault, file="mine.toml")
+    assert "run `ebac drive signs FILE`" in explained(fault)
 
 
 def test_a_simulation_is_never_late() -> None:
@@ -189,7 +195,8 @@ def test_the_command_offers_the_virtual_clock(capsys: pytest.CaptureFixture[str]
     text = " ".join(capsys.readouterr().err.split())
     assert "fault 9 (drive silent)" in text
     assert "the loop woke up to 12.3 ms late" in text
-    assert "ebac doctor" in text
+    assert text.count("ebac doctor") == 1  # it stood in the note and in the table's text
+    assert "`bus.missing`, `bus.late`, cables and termination" in text
     assert "--virtual instead of --simulated" in text
 
 

@@ -38,7 +38,7 @@ def loop_fault(trace: Trace) -> LoopFault | None:
     return error
 
 
-def explained(fault: LoopFault, instead: str = "") -> str:
+def explained(fault: LoopFault, instead: str = "", file: str = "") -> str:
     """Return what a command says of a fault: what happened, how late the loop was, and what to do first.
 
     Parameters
@@ -47,10 +47,15 @@ def explained(fault: LoopFault, instead: str = "") -> str:
         The fault.
     instead : str
         Another way to run the same, named where the loop was late.
+    file : str
+        Name of the configuration, where it is known; the remedy then names it.
     """
     notes: list[str] = getattr(fault, "__notes__", [])
     text = str(fault).partition("; see")[0]
-    return "; ".join(filter(None, [text, *notes, instead if notes else "", fault.remedy]))
+    then = fault.remedy.replace(" FILE`", f" {file}`") if file else fault.remedy
+    if "`ebac doctor`" in then and lateness_of(fault.fault, fault.trace):
+        then = ""  # the note on the lateness says so
+    return "; ".join(filter(None, [text, *notes, instead if notes else "", then]))
 
 
 def lateness_of(fault: Fault, trace: Trace) -> str:
@@ -80,5 +85,8 @@ def remedy(fault: Fault) -> str:
         if patient
         else ""
     )
-    last = "; only then look at cables and termination" if fault is Fault.DRIVE_SILENT else ""
-    return f"{first}{more}{last}"
+    last = {
+        Fault.DRIVE_SILENT: "; only then look at `bus.missing`, `bus.late`, cables and termination",
+        Fault.OVERRUNS: "; end other load on the machine, `ebac jitter` measures what is left",
+    }
+    return f"{first}{more}{last.get(fault, '')}"

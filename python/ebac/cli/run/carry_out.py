@@ -117,7 +117,7 @@ def give(
         log = result.report.log
         kept = "" if log is None else f"; its rows are in {log}"
         other = "--virtual instead of --simulated runs it on a virtual clock"
-        text = explained(fault, other if result.simulated else "")
+        text = explained(fault, other if result.simulated else "", file=result.configuration.name)
         output.fail(f"{text}{kept}", code=output.FAILED)
     if result.engine is not None and not result.engine.lasted:
         raise typer.Exit(output.FAILED)  # its own sentence stands above
