@@ -218,7 +218,7 @@ def test_a_loop_without_python_refuses_a_law_in_python_by_its_name(command: str)
     result = run(*command.split(), "--law", "mine.py:Damped")
     assert result.exit_code == 2
     told = " ".join(result.stderr.split())
-    assert "damped: is written in Python" in told
+    assert "Error: --law mine.py:Damped: is written in Python" in told  # it said --law damped
     assert "write it in C++" in told
     assert not list(Path().glob("ebac-*"))
 

@@ -110,10 +110,22 @@ def test_an_empty_one_is_the_paper_s_joystick() -> None:
         (
             "[law]\nname = 'ebac'\nvirtual_damping = 30.0\n",
             3,
-            "law.virtual_damping: it is designed, and injection = 0 leaves it out; its damping is another thing, "
+            "law.virtual_damping: ebac has no parameter virtual_damping; it is designed, and injection = 0 leaves it "
+            "out; its damping is another thing, "
             "a lower bound of the physical damping of the device",
         ),
         ("[law]\nname = 'ebac'\nkp = 7.0\n", 3, "kp = 7"),
+        (
+            "[timing]\ndelay = 0\n",
+            2,
+            "timing.delay = 0 samples: over a CAN bus a command acts one tick later at the earliest; must lie in "
+            "[1, 8] samples",
+        ),
+        (
+            "[limits]\npeak_current = 0.5\n",
+            2,
+            "limits.peak_current = 0.5 A: lies below limits.continuous_current, 0.9851 A, which follows from the motor",
+        ),
         ("[limits]\nspeed = 0.0\n", 2, "limits.speed = 0 m/s: must lie in [0.001, 100] m/s"),
         ("[limits]\nedge = 0.06\nend = 0.05\n", None, "end"),
         ("[run]\nseconds = 'long'\n", 2, 'run.seconds = "long": must be a number in s'),

@@ -166,7 +166,9 @@ def refuse_keys(table: Mapping[str, Any], known: Sequence[str], path: Path, kind
     for name in table:
         if name not in known:
             better = ELSEWHERE.get((kind, name))
-            what = f": {better}" if better else unknown("", name, known)
+            law = getattr(getattr(_core, kind, None), "name", None)
+            first = f"{law} has no parameter {name}; " if isinstance(law, str) else ""
+            what = f": {first}{better}" if better else unknown("", name, known)
             raise Misplaced((*path, name), what)
 
 

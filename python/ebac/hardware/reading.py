@@ -85,7 +85,7 @@ def read(source: Source) -> dict[str, Any]:
     values["simulated_signs"] = _signs(source, ("simulated", "signs"), axes)
     values["zero"] = _zero(source, ("zero",), ["counts", "absolute"], axes) or Zero()
     values["simulated_zero"] = _zero(source, ("simulated", "zero"), ["counts"], axes)
-    values["timing"] = on_top(source, ("timing",), Timing())
+    values["timing"] = _timing(source)
     values["environment"] = _environment(source)
     values |= _engine(source)
     values |= _law(source, values)
@@ -139,6 +139,17 @@ def _bus(source: Source) -> dict[str, Any]:
         "setup": word(source, ("bus", "setup"), found.get("setup", "verify"), ["verify", "apply"]),
         **{key.name: number(source, ("bus",), key) for key in BUS},
     }
+
+
+def _timing(source: Source) -> Timing:
+    made: Timing = on_top(source, ("timing",), Timing())
+    if made.delay < 1:
+        raise source.refuse(
+            ("timing", "delay"),
+            f"timing.delay = {made.delay:g} samples: over a CAN bus a command acts one tick later at the earliest; "
+            "must lie in [1, 8] samples",
+        )
+    return made
 
 
 def _signs(source: Source, path: tuple[str, ...], axes: int) -> Signs | None:
@@ -243,6 +254,14 @@ def _limits(source: Source, device: Device) -> Limits:
         if name not in table(source, ("limits",)):
             raise source.refuse(*_by_device(device, name, wrong)) from None
     limits: Limits = on_top(source, ("limits",), own)
+    asked = table(source, ("limits",))
+    if limits.peak_current < limits.continuous_current and "continuous_current" not in asked:
+        raise source.refuse(
+            ("limits", "peak_current"),
+            f"limits.peak_current = {limits.peak_current:g} A: lies below limits.continuous_current, "
+            f"{limits.continuous_current:.4g} A, which follows from the motor (device.motor.rated_torque / "
+            "torque_constant); raise peak_current, or give a lower continuous_current as well",
+        )
     refusing(source, ("limits",), lambda: _check_limits(limits))
     return limits
 

@@ -141,13 +141,17 @@ def checked(law: Any) -> CoreLaw | PythonLaw:
     return law
 
 
+#: Why a law in Python is refused by a loop in real time, and what to do.
+IN_PYTHON = (
+    "is written in Python, and this loop runs no Python; write it in C++ (docs/how-to/write_a_law.md), or try it with "
+    "`ebac wall` or ebac.simulate"
+)
+
+
 def compiled(law: CoreLaw | PythonLaw) -> CoreLaw:
     """Return a finished law that is compiled, for a loop that runs no Python. Raises TypeError for one in Python."""
     if not is_core_law(law):
-        raise TypeError(
-            f"law {law_name(law)}: is written in Python, and this loop runs no Python; write it in C++ "
-            "(docs/how-to/write_a_law.md), or try it with `ebac wall` or ebac.simulate"
-        )
+        raise TypeError(f"law {law_name(law)}: {IN_PYTHON}")
     return law
 
 
