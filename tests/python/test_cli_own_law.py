@@ -295,3 +295,19 @@ def test_an_error_in_the_design_of_a_law_is_one_line(mine: Path) -> None:
     assert result.output == (
         "Error: --law mine.py:Undesigned raises ZeroDivisionError: division by zero (mine.py, line 21)\n"
     )
+
+
+def test_a_handle_that_leaves_the_workspace_is_noted(mine: Path) -> None:
+    """A law with a wrong sign rested at 274 mm on a device of 60 mm, without a word."""
+    mine.write_text(
+        MINE + '\n\nclass Wrong(Damped):\n    name = "wrong"\n\n    def step(self, port):\n'
+        "        return -port.f_env\n",
+        encoding="utf-8",
+    )
+    result = run("wall", "--law", "mine.py:Wrong,direct", "--no-files")
+    (note,) = [line for line in result.stderr.splitlines() if line.startswith("Note: ")]
+    said = (
+        r"Note: wrong: the handle leaves the workspace of its device after 0\.\d+ s and is up to "
+    )
+    assert re.match(said, note)
+    assert "on axis 0; the stops of the device stand at 52.36 mm" in note
