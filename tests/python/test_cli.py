@@ -563,7 +563,19 @@ def test_laws_lists_all_and_shows_one() -> None:
     assert all(list(p) == keys for row in rows for p in row["parameters"])
     text = ebac_command("laws").stdout
     assert all(name in text for name in ebac.LAWS)
-    assert "N s/m" in ebac_command("laws", "ebac", "--delay", "2").stdout
+    shown = " ".join(ebac_command("laws", "ebac", "--delay", "2").stdout.split())
+    assert "N s/m" in shown
+    assert "designed: for the reference device at 1 kHz and 2 samples of delay;" in shown
+
+
+def test_laws_are_designed_for_the_device_of_a_file() -> None:
+    Path("mine.toml").write_text(
+        "[device.mechanics]\ndamping = 5.0\n[timing]\ndelay = 3\n", encoding="utf-8"
+    )
+    (row,) = document("laws", "eba", "--scenario", "mine.toml")["rows"]
+    assert {one["name"]: one["designed"] for one in row["parameters"]}["damping"] == 5.0
+    shown = " ".join(ebac_command("laws", "eba", "--scenario", "mine.toml").stdout.split())
+    assert "designed: for the device of mine.toml at 1 kHz and 3 samples of delay;" in shown
 
 
 def test_laws_are_designed_for_the_device() -> None:

@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from ebac.cli import by_name, completion, options, output, setting
+
+if TYPE_CHECKING:
+    from ebac._core import Device, Timing
 
 
 def laws(
@@ -21,6 +25,13 @@ def laws(
     device: options.DeviceName = None,
     rate: options.Rate = None,
     delay: options.Delay = None,
+    scenario: Annotated[
+        Path | None,
+        typer.Option(
+            help="A scenario in TOML: its device, its rate and its delay are those that laws are designed for.",
+            show_default=False,
+        ),
+    ] = None,
     as_json: output.AsJson = False,
 ) -> None:
     """List the laws, or the parameters of one law.
@@ -32,27 +43,46 @@ def laws(
     * `ebac laws`: every law
 
     * `ebac laws ebac --delay 2`: the parameters of EBAC, designed for 2 samples of delay
+
+    * `ebac presets reference > device.toml`, then `ebac laws ebac --scenario device.toml`: those for your device
     """
     with output.refusing():
-        rows = _rows(name, device, rate, delay)
+        whose, chosen, timing = _designed_for(device, scenario, rate, delay)
+        rows = _rows(name, chosen, timing)
     if as_json:
         typer.echo(output.document("laws", rows))
     elif name is None:
         _show_all(rows)
     else:
         _show_one(rows[0])
+        delayed = output.plural(timing.delay, "sample")
+        output.say(
+            f"designed: for {whose} at {1e-3 / timing.dt:.4g} kHz and {delayed} of delay; "
+            "--device, --scenario, --rate and --delay choose others. default: of a law that is made without a device."
+        )
 
 
-def _rows(
-    name: str | None, device: str | None, rate: float | None, delay: int | None
-) -> list[dict[str, Any]]:
-    from ebac._core import Timing
+def _designed_for(
+    name: str | None, file: Path | None, rate: float | None, delay: int | None
+) -> tuple[str, Device, Timing]:
+    """Return the device in words, the device, and the timing that laws are designed for."""
+    if name is not None and file is not None:
+        raise ValueError(
+            f"--device {name}: the device is that of --scenario {file}; give one of the two"
+        )
+    base = setting.base_scenario(file)
+    timing = setting.choose_timing(base.known_timing, rate, delay)
+    if file is not None:
+        return f"the device of {file}", base.device, timing
+    name = name or "reference"
+    return f"the {name.lower()} device", setting.known_device(name), timing
+
+
+def _rows(name: str | None, device: Device, timing: Timing) -> list[dict[str, Any]]:
     from ebac.laws import LAWS, design
 
     names = [by_name.one_law(name, "NAME")] if name is not None else list(LAWS)
-    chosen = setting.known_device(device or "reference")
-    timing = setting.choose_timing(Timing(), rate, delay)
-    return [_row(design(law, chosen, timing)) for law in names]
+    return [_row(design(law, device, timing)) for law in names]
 
 
 def _row(law: Any) -> dict[str, Any]:
