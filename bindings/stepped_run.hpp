@@ -8,8 +8,8 @@
 #include <mutex>
 #include <optional>
 
-#include "ebac/loop/virtual_clock.hpp"
 #include "ebac/loop/held_back_commands.hpp"
+#include "ebac/loop/virtual_clock.hpp"
 #include "ebac/sim/simulated_device.hpp"
 #include "ebac/simulated_drives/through_can.hpp"
 #include "running.hpp"

@@ -11,8 +11,8 @@
 #include "ebac/control/beta.hpp"
 #include "ebac/control/law_types.hpp"
 #include "ebac/control/per_axis.hpp"
-#include "ebac/loop/virtual_clock.hpp"
 #include "ebac/loop/tick.hpp"
+#include "ebac/loop/virtual_clock.hpp"
 #include "ebac/sim/contact.hpp"
 #include "ebac/sim/simulated_device.hpp"
 

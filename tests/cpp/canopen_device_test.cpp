@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "ebac/control/direct.hpp"
-#include "ebac/loop/virtual_clock.hpp"
 #include "ebac/loop/loop.hpp"
+#include "ebac/loop/virtual_clock.hpp"
 #include "ebac/simulated_drives/exchange_benchmark.hpp"
 #include "scripted_drives.hpp"
 

@@ -4,8 +4,8 @@
 #include <memory>
 
 #include "ebac/control/per_axis.hpp"
-#include "ebac/loop/virtual_clock.hpp"
 #include "ebac/loop/loop.hpp"
+#include "ebac/loop/virtual_clock.hpp"
 #include "ebac/sim/simulated_device.hpp"
 
 namespace ebac {

@@ -10,8 +10,8 @@
 #include <tuple>
 #include <utility>
 
-#include "ebac/loop/virtual_clock.hpp"
 #include "ebac/loop/loop.hpp"
+#include "ebac/loop/virtual_clock.hpp"
 #include "ebac/simulated_drives/can_test_bench.hpp"
 
 /// A simulated run whose currents and counts go over a CAN bus, through simulated drives. It gives
