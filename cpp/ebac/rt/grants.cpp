@@ -70,7 +70,8 @@ std::size_t stack_left() {
   std::size_t size = 0;
   pthread_attr_getstack(&attributes, &lowest, &size);
   pthread_attr_destroy(&attributes);
-  const auto here = reinterpret_cast<std::uintptr_t>(&attributes);
+  // Of the frame, as a sanitizer may keep what lies in it elsewhere.
+  const auto here = reinterpret_cast<std::uintptr_t>(__builtin_frame_address(0));
   const std::size_t left = here - reinterpret_cast<std::uintptr_t>(lowest);
   return left > kMargin ? left - kMargin : 0;
 }
