@@ -79,7 +79,7 @@ class Trace {
   std::size_t copy(std::size_t from, std::span<std::byte> out) const EBAC_RT {
     const std::size_t rows = out.size() / row_;
     if (ring_) {
-      for (std::size_t i = 0; i < rows; ++i) take(from + i, out.data() + i * row_);
+      for (std::size_t i = 0; i < rows; ++i) take(from + i, out.data() + i * row_, row_);
     } else {
       std::memcpy(out.data(), data() + from * row_, rows * row_);
     }
@@ -88,11 +88,14 @@ class Trace {
 
   /// The sample of row `i`; axes beyond the ones in use are zero.
   Sample sample(std::size_t i) const {
-    std::vector<std::byte> row(row_);
-    copy(i, row);
     Sample s;
-    std::memcpy(static_cast<void*>(&s), row.data(),
-                offsetof(Sample, axis) + sizeof(Axis) * static_cast<std::size_t>(axes_));
+    const std::size_t size =
+        offsetof(Sample, axis) + sizeof(Axis) * static_cast<std::size_t>(axes_);
+    if (ring_) {
+      take(i, reinterpret_cast<std::byte*>(&s), size);
+    } else {
+      std::memcpy(static_cast<void*>(&s), data() + i * row_, size);
+    }
     return s;
   }
 
@@ -114,9 +117,11 @@ class Trace {
       std::atomic_ref(to[i]).store(staged_[i], std::memory_order_release);
     }
   }
-  void take(std::size_t row, std::byte* out) const EBAC_RT {
+  /// The first `size` bytes of a row, whole words.
+  void take(std::size_t row, std::byte* out, std::size_t size) const EBAC_RT {
+    static_assert(offsetof(Sample, axis) % sizeof(Word) == 0 && sizeof(Axis) % sizeof(Word) == 0);
     Word* from = data_.data() + slot(row);
-    for (std::size_t i = 0; i < words(); ++i) {
+    for (std::size_t i = 0; i < size / sizeof(Word); ++i) {
       const Word word = std::atomic_ref(from[i]).load(std::memory_order_acquire);
       std::memcpy(out + i * sizeof(Word), &word, sizeof(Word));
     }
