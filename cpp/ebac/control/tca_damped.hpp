@@ -11,8 +11,8 @@
 namespace ebac {
 
 /// Torque control with a virtual damper B_v in contact, and nothing else: the honest rival. It is
-/// designed with the damper of `Ebac` where no resonance is declared, B_v = M_h w; equal to it on moderate walls and faster to
-/// settle.
+/// designed with the damper of `Ebac` where no resonance is declared, B_v = M_h w; equal to it on
+/// moderate walls and faster to settle.
 ///
 /// Known weakness: nothing watches the energy, and the wall is shown at its full stiffness while
 /// moving, which a stiffer wall or a longer delay does not forgive.

@@ -85,8 +85,8 @@ inline Fault judge(const Reading& reading, std::span<const Axis> axes) EBAC_RT {
   return reading.fault != Fault::kNone ? reading.fault : first_fault(axes);
 }
 
-/// One tick without limits, pauses and a row, as a sweep and a gastroscopy take it; `Loop` has all of them. Commands computed here act `delay` ticks later, in simulation and on the
-/// bus alike.
+/// One tick without limits, pauses and a row, as a sweep and a gastroscopy take it; `Loop` has all of
+/// them. Commands computed here act `delay` ticks later, in simulation and on the bus alike.
 template <AxesController Law, Device D, std::size_t N>
 void tick(SignalChain& chain, Law& law, D& device, const Instant& now, Sample& s,
           std::span<Axis, N> axes) EBAC_RT {
