@@ -5,11 +5,14 @@ Needs the `ziglang` wheel, a C++ compiler with the libraries of wasm32-wasi, and
 takes three times as long as the module. Without OUT the module goes where the installed package looks for it.
 """
 
+import hashlib
+import json
 import os
 import shlex
 import subprocess
 import sys
 import tempfile
+from collections.abc import Iterable
 from importlib.util import find_spec
 from pathlib import Path
 
@@ -43,9 +46,9 @@ FLAGS = (
 )
 
 
-def sources() -> list[Path]:
-    """Return all that the module is made of."""
-    return [*CPP.rglob("*.[hc]pp"), *HERE.glob("*.[hc]pp"), Path(__file__)]
+def contents(files: Iterable[Path]) -> dict[str, str]:
+    """Return the SHA-256 of each of these files."""
+    return {str(f): hashlib.sha256(f.read_bytes()).hexdigest() for f in sorted(files)}
 
 
 def eigen() -> Path:
@@ -64,43 +67,51 @@ def compiler() -> list[str]:
     return [sys.executable, "-m", "ziglang", "c++"] if find_spec("ziglang") else []
 
 
-def build(out: Path) -> None:
-    """Compile the module to `out`."""
+def build(out: Path) -> dict[str, str]:
+    """Compile the module to `out`; return the files of this repository that it is made of, with their SHA-256."""
     if not compiler():
         raise SystemExit("ziglang, which compiles to WebAssembly, is missing: pip install ziglang")
     out.parent.mkdir(parents=True, exist_ok=True)
-    files = len(CORE) + len(OWN) + 1
-    print(f"compiling {files} files to WebAssembly in one step, about two minutes ...", flush=True)
+    own = [*(CPP / "ebac" / f"{name}.cpp" for name in CORE), *(HERE / f"{n}.cpp" for n in OWN)]
+    throw = HERE / "throw.cpp"
+    print(
+        f"compiling {len(own) + 1} files to WebAssembly in one step, about two minutes ...",
+        flush=True,
+    )
     with tempfile.TemporaryDirectory() as room:
-        unit = Path(room, "ebac.cpp")
-        files = [
-            *(CPP / "ebac" / f"{name}.cpp" for name in CORE),
-            *(HERE / f"{n}.cpp" for n in OWN),
-        ]
-        unit.write_text("".join(f'#include "{file}"\n' for file in files), encoding="utf-8")
-        made = Path(room, "ebac.wasm")
-        subprocess.run(
-            [*compiler(), *FLAGS, f"-I{CPP}", f"-I{HERE}", "-isystem", str(eigen()),
-             str(unit), str(HERE / "throw.cpp"), "-o", str(made)],
-            check=True,
-        )  # fmt: skip
+        unit, made, used = (Path(room, f"ebac.{kind}") for kind in ("cpp", "wasm", "d"))
+        unit.write_text("".join(f'#include "{file}"\n' for file in own), encoding="utf-8")
+        command = [*compiler(), *FLAGS, f"-I{CPP}", f"-I{HERE}", "-isystem", str(eigen())]
+        subprocess.run([*command, "-MM", "-MF", str(used), str(unit)], check=True)
+        words = used.read_text(encoding="utf-8").replace("\\\n", " ").split()
+        included = {Path(word).resolve() for word in words[1:]} - {unit.resolve()}
+        made_of = contents([*included, throw, Path(__file__)])
+        subprocess.run([*command, str(unit), str(throw), "-o", str(made)], check=True)
         out.write_bytes(made.read_bytes())
+    return made_of
 
 
 def fresh(out: Path) -> bool:
-    """Return whether `out` is there and no source is newer."""
-    return out.exists() and out.stat().st_mtime >= max(p.stat().st_mtime for p in sources())
+    """Return whether `built` has compiled `out` from the files as they are now."""
+    made_of = out.with_suffix(".json")
+    if not out.exists() or not made_of.exists():
+        return False
+    then: dict[str, str] = json.loads(made_of.read_text(encoding="utf-8"))
+    try:
+        return contents(Path(f) for f in then) == then
+    except FileNotFoundError:
+        return False
 
 
 def built(out: Path) -> Path:
-    """Return `out`, compiled again where a source is newer; of several processes one compiles."""
+    """Return `out`, compiled again where a file that it is made of has changed; of several processes one compiles."""
     import fcntl
 
     out.parent.mkdir(parents=True, exist_ok=True)
     with out.with_suffix(".lock").open("w") as lock:
         fcntl.flock(lock, fcntl.LOCK_EX)
         if not fresh(out):
-            build(out)
+            out.with_suffix(".json").write_text(json.dumps(build(out)), encoding="utf-8")
     return out
 
 
