@@ -1,8 +1,8 @@
 #pragma once
 
-#include <array>
 #include <atomic>
-#include <cstring>
+#include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <tuple>
@@ -13,6 +13,7 @@
 #include "ebac/loop/parameter_updates.hpp"
 #include "ebac/loop/plausibility.hpp"
 #include "ebac/loop/row_parts.hpp"
+#include "ebac/loop/row_writer.hpp"
 #include "ebac/loop/tick.hpp"
 #include "ebac/loop/trace.hpp"
 
@@ -39,20 +40,7 @@ class Loop {
 
   /// A trace laid out for this loop, with room for `rows`; as a ring it keeps the last `rows`.
   std::shared_ptr<Trace> make_trace(std::size_t rows, bool ring = false) {
-    auto trace = std::make_shared<Trace>(static_cast<int>(sample_.axes));
-    law_at_ = trace->add_block("law.", law_table());
-    law_bytes_ = law_table().rows.empty() ? 0 : law_table().size;
-    law_fields_ = &law_table();
-    std::apply(
-        [&](const auto&... part) {
-          [[maybe_unused]] std::size_t i = 0;
-          ((device_at_[i++] = add_part(*trace, part)), ...);
-        },
-        row_parts(device_));
-    if (limiter_.on()) limiter_at_ = add_part(*trace, limiter_);
-    if constexpr (kTimed) clock_at_ = add_part(*trace, clock_);
-    trace->reserve(rows, ring);
-    return trace;
+    return rows_.make_trace(static_cast<int>(sample_.axes), law_, parts(), rows, ring);
   }
 
   /// Runs to the end of the plan, to a fault or to a requested stop; returns false if a fault is
@@ -157,7 +145,7 @@ class Loop {
     }
     stop_device();
     if constexpr (kTimed) clock_.finish();
-    if (row != nullptr) append(row, axes.size());
+    if (row != nullptr) rows_.write(row, sample_, axes.size(), law_, parts());
     if constexpr (kRecorded) {
       for (std::size_t i = 0; i < axes.size(); ++i) axes[i].joint.current = device_.sent(i);
     }
@@ -232,47 +220,13 @@ class Loop {
     }
   }
 
-  static constexpr bool kAnyLaw = requires(const Law& law) { law.state_table(); };
-
-  const FieldTable& law_table() const {
-    if constexpr (kAnyLaw) {
-      return law_.state_table();
+  /// What has columns in a row besides the law.
+  auto parts() const EBAC_RT {
+    if constexpr (kTimed) {
+      return std::tuple_cat(row_parts(device_), std::tie(limiter_, clock_));
     } else {
-      return field_table<typename Law::State>();
+      return std::tuple_cat(row_parts(device_), std::tie(limiter_));
     }
-  }
-
-  template <class Part>
-  static std::size_t add_part(Trace& trace, const Part&) {
-    return trace.add_block(std::string(Part::kPrefix), field_table<typename Part::State>());
-  }
-
-  /// In parts: to copy more than 272 bytes at once takes the processor a string instruction, 10 ns.
-  void append(std::byte* row, std::size_t axes) const EBAC_RT {
-    std::memcpy(row, &sample_, offsetof(Sample, axis));
-    std::byte* to = row + offsetof(Sample, axis);
-    for (std::size_t i = 0; i < axes; ++i, to += sizeof(Axis)) {
-      copy_words(to + offsetof(Axis, joint), sample_.axis[i].joint);
-      std::memcpy(to + offsetof(Axis, port), &sample_.axis[i].port, sizeof(Port));
-    }
-    if constexpr (kAnyLaw) {
-      if (&law_.state_table() != law_fields_) {  // another law has no columns in this trace
-        std::memset(row + law_at_, 0, axes * law_bytes_);
-      }
-      for (std::size_t i = 0; i < axes && &law_.state_table() == law_fields_; ++i) {
-        std::memcpy(row + law_at_ + i * law_bytes_, law_.state(i), law_bytes_);
-      }
-    } else {
-      copy_states(row + law_at_, law_, axes);
-    }
-    std::apply(
-        [&](const auto&... part) EBAC_RT {
-          [[maybe_unused]] std::size_t i = 0;
-          (copy_states(row + device_at_[i++], part, axes), ...);
-        },
-        row_parts(device_));
-    if (limiter_.on()) copy_states(row + limiter_at_, limiter_, axes);
-    if constexpr (kTimed) copy_states(row + clock_at_, clock_, axes);
   }
 
   D device_;
@@ -283,13 +237,8 @@ class Loop {
   SafetyLimiter limiter_;
   std::optional<Plausibility> plausibility_;  // where the limits ask for it
   Sample sample_{};
-  std::size_t limiter_at_ = 0;
-  std::size_t clock_at_ = 0;
   std::atomic<std::int64_t> unrecorded_{0};  // ticks
-  std::size_t law_at_ = 0;
-  std::size_t law_bytes_ = 0;               // of its state, on one axis
-  const FieldTable* law_fields_ = nullptr;  // of the law that the trace was made for
-  std::array<std::size_t, kRowParts<D>> device_at_{};
+  RowWriter<Law, kRowParts<D> + (kTimed ? 2 : 1)> rows_;
 };
 
 }  // namespace ebac
