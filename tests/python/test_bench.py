@@ -2,6 +2,7 @@
 
 import json
 import sys
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -70,10 +71,32 @@ def test_the_comparison(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 @pytest.mark.parametrize(
-    "option", ["--no-observer", "--observer-every-law", "--observer-learns", "--seconds=1"]
+    "option",
+    ["--law=ebac", "--no-observer", "--observer-every-law", "--observer-learns", "--seconds=1"],
 )
 def test_a_comparison_refuses_options_of_a_scenario(option: str) -> None:
     """None is left out in silence, a switch that is off by default neither."""
     refused = CliRunner().invoke(app, ["bench", "--peers", option])
     assert refused.exit_code == 2
-    assert "leave its options out" in refused.stderr
+    assert "leave these options out" in refused.stderr
+
+
+@pytest.mark.parametrize("given", [["ebac"], ["tca,ebac", "{own}"], ["{own}"]])
+def test_laws_that_are_named_are_timed_a_law_of_ones_own_too(
+    given: list[str], tmp_path: Path
+) -> None:
+    file = tmp_path / "mine.py"
+    file.write_text(
+        "class Half:\n    def step(self, port):\n        return 0.5 * port.f_env\n    def reset(self):\n        pass\n"
+    )
+    words = [word.format(own=f"{file}:Half") for word in given]
+    options = [part for word in words for part in ("--law", word)]
+    result = CliRunner().invoke(
+        app, ["bench", *options, "--repeats", "1", "--seconds", "0.1", "--json"]
+    )
+    assert result.exit_code == 0, result.output
+    rows = json.loads(result.stdout)["rows"]
+    names = [name for word in given for name in word.replace("{own}", "Half").split(",")]
+    assert [row["law"] for row in rows] == names
+    assert all(row["tick_ns"] > 0 for row in rows)
+    assert [row["step_ns"] is None for row in rows] == [name == "Half" for name in names]

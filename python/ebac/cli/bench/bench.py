@@ -10,10 +10,11 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from ebac.cli import from_options, interrupts, options, output
+from ebac.cli import by_name, from_options, interrupts, options, output
 from ebac.cli.bench import can, logs, peers, worlds
 
 if TYPE_CHECKING:
+    from ebac.laws import AnyLaw, PythonLaw
     from ebac.scenario import Scenario
 
 #: What a law step and a closed-loop tick of one axis should take on one core [ns].
@@ -35,6 +36,7 @@ class Spring:
 
 def bench(
     setup: options.ScenarioOptions,
+    law: Annotated[list[str] | None, options.laws("all, and one in Python")] = None,
     repeats: Annotated[
         int,
         typer.Option(
@@ -76,13 +78,16 @@ def bench(
     """Time each law and the control loop on this machine.
 
     A tick includes plant, encoder, kinematics, wall, law, energy account, motor and one row of the log, for one axis
-    on one core, in C++. The last row of the table is a law written in Python, in the same loop.
+    on one core, in C++. The last row of the table is a law written in Python, in the same loop. With `--law` only those
+    laws are timed, also [laws of your own](docs/how-to/write_a_law.md).
 
     **Examples**
 
     * `ebac bench --repeats 5`: every law
 
     * `ebac bench --device joystick --seconds 2 --repeats 5`: on another device
+
+    * `ebac bench --law ebac,my_laws:Damped --repeats 5`: a law of your own beside `ebac`
 
     * `ebac bench --logs`: a log of a million rows, written and read
 
@@ -95,9 +100,9 @@ def bench(
         output.fail(
             "--peers, --can, --logs and --worlds are comparisons of their own: give one of them"
         )
-    if others and any(v is not None for v in vars(setup).values()):
+    if others and (law or any(v is not None for v in vars(setup).values())):
         output.fail(
-            "--peers, --can, --logs and --worlds have scenarios of their own: leave its options out"
+            "--peers, --can, --logs and --worlds have scenarios and laws of their own: leave these options out"
         )
     if chai3d is not None and not chai3d.is_file():
         reason = "it is a folder" if chai3d.is_dir() else "no such file"
@@ -117,20 +122,18 @@ def bench(
     if with_peers:
         peers.run(repeats, side, as_json=as_json)
         return
-    from ebac.laws import LAWS, design
+    from ebac.laws import LAWS
 
-    rows = []
     with output.refusing():
         scenario = from_options.scenario(setup)
-    with output.refusing(), output.progress(len(LAWS) + 1, quiet=as_json) as step:
-        for name in LAWS:
+        chosen: dict[str, AnyLaw] = {name: name for name in LAWS} | {"python": Spring()}
+        if law:
+            chosen = by_name.laws(law)
+    rows = []
+    with output.refusing(), output.progress(len(chosen), quiet=as_json) as step:
+        for name, one in chosen.items():
             step(f"timing {name}")
-            law: Any = design(name, scenario.device, scenario.timing)
-            core = scenario.setup()
-            step_ns = _best(partial(law._time_step, core), repeats)
-            rows.append(_row(name, step_ns, _best(partial(law._time_tick, core), repeats)))
-        step("timing a law in Python")
-        rows.append(_row("python", None, _time_python(scenario, min(repeats, 10))))
+            rows.append(_timed(name, one, scenario, repeats))
     if as_json:
         typer.echo(output.document("bench", rows))
     else:
@@ -143,24 +146,34 @@ def _best(timed: Callable[[int], float], repeats: int) -> float:
     return min(timed(size) for size in sizes)
 
 
-def _row(law: str, step_ns: float | None, tick_ns: float) -> dict[str, Any]:
-    return {"law": law, "step_ns": step_ns, "tick_ns": tick_ns, "ticks_per_s": 1e9 / tick_ns}
+def _timed(name: str, law: AnyLaw, scenario: Scenario, repeats: int) -> dict[str, Any]:
+    """Return the row of a law; one in Python has no step of its own to time."""
+    from ebac.laws import design
+
+    made: Any = design(law, scenario.device, scenario.timing)
+    step_ns = None
+    if hasattr(made, "_time_tick"):
+        core = scenario.setup()
+        step_ns = _best(partial(made._time_step, core), repeats)
+        tick_ns = _best(partial(made._time_tick, core), repeats)
+    else:
+        tick_ns = _time_python(made, scenario, min(repeats, 10))
+    return {"law": name, "step_ns": step_ns, "tick_ns": tick_ns, "ticks_per_s": 1e9 / tick_ns}
 
 
-def _time_python(scenario: Scenario, repeats: int) -> float:
+def _time_python(law: PythonLaw, scenario: Scenario, repeats: int) -> float:
     """Return the best time of a tick under a law in Python [ns]."""
     from ebac.simulation import simulate
 
     best = float("inf")
     for _ in range(repeats):
         start = perf_counter()
-        trace = simulate(scenario, Spring())
+        trace = simulate(scenario, law)
         best = min(best, (perf_counter() - start) / len(trace))
     return 1e9 * best
 
 
 def _show(rows: list[dict[str, Any]]) -> None:
-    *compiled, python = rows
     grid = output.table(["law", "step", "tick", "ticks per second"], numbers=(1, 2, 3))
     for row in rows:
         step = "-" if row["step_ns"] is None else f"{row['step_ns']:.1f} ns"
@@ -168,5 +181,8 @@ def _show(rows: list[dict[str, Any]]) -> None:
     grid.add_section()
     grid.add_row("aim", f"{AIM_STEP} ns", f"{AIM_TICK} ns", f"{1e9 / AIM_TICK:,.0f}")
     output.show(grid)
-    ratio = python["tick_ns"] / min(row["tick_ns"] for row in compiled)
-    output.say(f"A tick under a law in Python takes {ratio:.0f} times the quickest one in C++.")
+    compiled = [row["tick_ns"] for row in rows if row["step_ns"] is not None]
+    python = [row["tick_ns"] for row in rows if row["step_ns"] is None]
+    if compiled and python:
+        ratio = min(python) / min(compiled)
+        output.say(f"A tick under a law in Python takes {ratio:.0f} times the quickest one in C++.")
