@@ -126,9 +126,9 @@ def bench(
 
     with output.refusing():
         scenario = from_options.scenario(setup)
-        chosen: dict[str, AnyLaw] = {name: name for name in LAWS} | {"python": Spring()}
-        if law:
-            chosen = by_name.laws(law)
+        chosen: dict[str, AnyLaw] = by_name.laws(law or LAWS)
+        if not law:
+            chosen["python"] = Spring()
     rows = []
     with output.refusing(), output.progress(len(chosen), quiet=as_json) as step:
         for name, one in chosen.items():
