@@ -126,7 +126,7 @@ def bench(
 
     with output.refusing():
         scenario = from_options.scenario(setup)
-        chosen: dict[str, AnyLaw] = by_name.laws(law or LAWS)
+        chosen: dict[str, AnyLaw] = by_name.laws(law or list(LAWS))
         if not law:
             chosen["python"] = Spring()
     rows = []
