@@ -20,7 +20,7 @@ struct LogColumns {
   Codes fault;
   Numbers force_age;
   Codes force_status;
-  Numbers gain;
+  Numbers gain, came;
   Counts counts;
   Numbers counts_age, current_applied, force, f_env, f_cmd, current;
 };
@@ -48,6 +48,7 @@ void require_shapes(const LogColumns& c) {
   require_shape(c.force_age, "force_age", rows, 0);
   require_shape(c.force_status, "force_status", rows, 0);
   require_shape(c.gain, "gain", rows, 0);
+  require_shape(c.came, "came", rows, 0);
   require_shape(c.counts, "counts", rows, axes);
   require_shape(c.counts_age, "counts_age", rows, axes);
   require_shape(c.current_applied, "current_applied", rows, axes);
@@ -69,7 +70,8 @@ std::shared_ptr<ReplayLog> make_log(const LogColumns& c) {
                         .fault = static_cast<Fault>(c.fault.data()[i]),
                         .force_age = c.force_age.data()[i],
                         .force_status = static_cast<SensorStatus>(c.force_status.data()[i]),
-                        .gain = c.gain.data()[i]});
+                        .gain = c.gain.data()[i],
+                        .came = c.came.data()[i]});
   }
   for (std::size_t i = 0; i < rows * log->axes; ++i) {
     log->axis.push_back({.counts = c.counts.data()[i],
@@ -91,14 +93,15 @@ void bind_replay(py::module_& m) {
                        const Codes& fault, const Numbers& force_age, const Codes& force_status,
                        const Counts& counts, const Numbers& counts_age,
                        const Numbers& current_applied, const Numbers& force, const Numbers& f_env,
-                       const Numbers& f_cmd, const Numbers& current, const Numbers& gain) {
-             return make_log({t, dt, lateness, fault, force_age, force_status, gain, counts,
+                       const Numbers& f_cmd, const Numbers& current, const Numbers& gain,
+                       const Numbers& came) {
+             return make_log({t, dt, lateness, fault, force_age, force_status, gain, came, counts,
                               counts_age, current_applied, force, f_env, f_cmd, current});
            }),
            py::kw_only(), py::arg("t"), py::arg("dt"), py::arg("lateness"), py::arg("fault"),
            py::arg("force_age"), py::arg("force_status"), py::arg("counts"), py::arg("counts_age"),
            py::arg("current_applied"), py::arg("force"), py::arg("f_env"), py::arg("f_cmd"),
-           py::arg("current"), py::arg("gain"))
+           py::arg("current"), py::arg("gain"), py::arg("came"))
       .def("__len__", &ReplayLog::rows)
       .def_readwrite("observer", &ReplayLog::observer, "Observer of the replay, or None.")
       .def_property_readonly(

@@ -2,6 +2,8 @@
 
 #include <functional>
 #include <optional>
+#include <tuple>
+#include <vector>
 
 #include "bind.hpp"
 #include "ebac/sim/ideal_wall.hpp"
@@ -12,6 +14,9 @@ namespace ebac::python {
 namespace {
 
 using Numbers = py::array_t<double, py::array::c_style | py::array::forcecast>;
+
+/// Position, applied force, force of the virtual world and pull of the hand on another axis.
+using OtherAxis = std::tuple<Numbers, Numbers, Numbers, std::optional<Numbers>>;
 
 std::span<const double> view(const std::optional<Numbers>& values) {
   if (!values) return {};
@@ -28,7 +33,7 @@ void bind_contact(py::module_& m) {
       [](const Numbers& t, const Numbers& x, const Numbers& force,
          const std::optional<Numbers>& energy, const std::optional<Numbers>& stored,
          const std::optional<Numbers>& clamped, const std::optional<Numbers>& pull,
-         const std::optional<Numbers>& wall) {
+         const std::optional<Numbers>& wall, const std::vector<OtherAxis>& others) {
         const ContactRecord record{.t = view(t),
                                    .x = view(x),
                                    .force = view(force),
@@ -37,9 +42,18 @@ void bind_contact(py::module_& m) {
                                    .clamped = view(clamped),
                                    .pull = view(pull),
                                    .wall = view(wall)};
-        const WallContact c = measure_contact(record);
+        WallContact c = measure_contact(record);
+        const double at_rest = rest_power(record, c);
+        for (const auto& [x_i, force_i, wall_i, pull_i] : others) {
+          const ContactRecord other{.t = view(t),
+                                    .x = view(x_i),
+                                    .force = view(force_i),
+                                    .pull = view(pull_i),
+                                    .wall = view(wall_i)};
+          if (touched_at_end(other)) c.take_worse(measure_contact(other));
+        }
         Values numbers = values_of(c);
-        numbers["rest_power"] = rest_power(record, c);
+        numbers["rest_power"] = at_rest;
         numbers["still"] = c.still();
         numbers["force_quiet"] = c.force_quiet();
         numbers["quiet"] = c.quiet();
@@ -47,7 +61,7 @@ void bind_contact(py::module_& m) {
       },
       py::kw_only(), py::arg("t"), py::arg("x"), py::arg("force"), py::arg("energy") = py::none(),
       py::arg("stored") = py::none(), py::arg("clamped") = py::none(), py::arg("pull") = py::none(),
-      py::arg("wall") = py::none());
+      py::arg("wall") = py::none(), py::arg("others") = std::vector<OtherAxis>());
   m.def(
       "_stored_energy",
       [](const Environment& environment, const Kinematics& kinematics, const Numbers& x,

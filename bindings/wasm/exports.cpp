@@ -123,7 +123,10 @@ EBAC_EXPORT("watch") void watch(int rows) {
 EBAC_EXPORT("measure") const double* measure() {
   static ContactRecorder recorder;
   recorder.start(record.size());
-  for (const Shown& row : record) recorder.add(row.t, row.x, row.f_applied, row.energy, 0);
+  for (const Shown& row : record) {
+    recorder.add(row.t, row.energy, 0);
+    recorder.add_axis(0, row.x, row.f_applied);
+  }
   const WallContact contact = measure_contact(recorder.record());
   const auto fields = field_table<WallContact>().rows;
   for (std::size_t i = 0; i < fields.size(); ++i) {

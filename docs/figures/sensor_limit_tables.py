@@ -270,8 +270,12 @@ def _worst(
         for c in conditions
         for seed in seeds
     ]
-    most = [1e3 * max(row["energy_drawn_J"] for row in rows) for rows in found]
-    return f"{', '.join(f'{e:.1f}' for e in most)} mJ"
+    return f"{_most(found, 'energy_drawn_J')} mJ"
+
+
+def _most(found: Sequence[Sequence[Row]], key: str) -> str:
+    """Return the largest energy of each search [mJ]."""
+    return ", ".join(f"{1e3 * max(row[key] for row in rows):.1f}" for rows in found)
 
 
 def _both(rows: Sequence[Row]) -> str:

@@ -17,6 +17,7 @@ from pathlib import Path
 
 import adversaries as hostile
 import device_tables as devices
+import fact_tables as facts
 import friction_tables as friction
 import gastroscopy_tables as gastroscopy
 import held_tables as holding
@@ -77,6 +78,7 @@ TABLES: dict[str, Callable[[Printed], str]] = {
     "limits-scale": sensors.scale,
     "limits-steps": sensors.steps,
     "limits-motor": sensors.motor,
+    "limits-facts": facts.told,
     "outliers": tracked.outliers,
     "gastroscopy": gastroscopy.runs,
     "engines": worlds.engines,

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <random>
+
 namespace ebac::run_state_machine_test {
 namespace {
 
@@ -41,6 +43,23 @@ TEST(Start, LetsTheForceInOverTheWholeSoftStart) {
       run.advance(true, false, kTick);
       EXPECT_NEAR(run.gain(), i / 50.0, 1e-12);
     }
+  }
+}
+
+TEST(Start, TellsWhatComesInAndAfterAPauseWhatGoes) {
+  std::mt19937 random(1);
+  for (const bool arm : {false, true}) {
+    RunStateMachine run({.soft_start = 0.05, .arm = arm});
+    EXPECT_TRUE(run.start());
+    double sum = 0;
+    for (int i = 0; i < 5000; ++i) {
+      run.advance(/*ready=*/i > 3, false, kTick);
+      if (random() % 60 == 0) run.resume();
+      sum += run.came();
+      ASSERT_NEAR(sum, run.gain(), 1e-9);
+    }
+    run.advance(true, /*asked=*/true, kTick);
+    EXPECT_EQ(run.came(), 0.0) << "a stop is no soft start";
   }
 }
 

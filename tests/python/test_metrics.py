@@ -147,6 +147,37 @@ def test_each_axis_is_measured_by_itself(run: Any) -> None:
     assert rests == pytest.approx([0.02, -0.01], abs=1e-4)
 
 
+def test_an_axis_that_swings_is_judged_whichever_it_is() -> None:
+    """`direct` swung by 12 mm at the peak force on the second axis, and the verdict of the first was quiet."""
+    device = ebac.Device(kinematics=ebac.Linear(axes=2), sensor=ebac.ForceSensor(noise=0.03))
+    hand = ebac.Hand(path=[ebac.Step(target=0.02), ebac.Step(target=0.02)])
+    soft, stiff = (300.0, 20e3)
+    swings = []
+    for first, second in ((soft, stiff), (stiff, soft)):
+        corner = ebac.Corner(
+            first=ebac.Wall(stiffness=first), second=ebac.Wall(stiffness=second, angle=math.pi / 2)
+        )
+        run = ebac.Scenario(device=device, hand=hand, environment=corner)
+        found = ebac.contact(ebac.simulate(run, "direct"))
+        outcome = ebac.sweep([run], ["direct"])
+        assert (found.still, found.quiet) == (False, False)
+        assert (outcome["still"][0], outcome["quiet"][0]) == (False, False)
+        assert outcome["swing_m"][0] == pytest.approx(found.swing_m)
+        assert "swings" in found.verdict
+        swings.append(found.swing_m)
+    assert swings[0] == pytest.approx(swings[1], rel=0.1)
+    assert swings[0] > 10e-3
+
+
+def test_an_axis_in_free_air_may_move() -> None:
+    device = ebac.Device(kinematics=ebac.Linear(axes=2))
+    sine = ebac.Sine(centre=0.0, amplitude=0.01, frequency=1.0)
+    hand = ebac.Hand(path=[ebac.Step(target=0.02), sine])
+    trace = ebac.simulate(ebac.Scenario(device=device, hand=hand), "ebac")
+    assert ebac.contact(trace).quiet
+    assert not ebac.contact(trace, axis=1).still
+
+
 # --- the force ---
 
 

@@ -136,7 +136,7 @@ def test_a_change_between_observer_and_encoder_leaves_no_motion_out_of_the_accou
     assert len(begins) > 5
     more = np.diff(trace["law.energy"] - trace["true.energy"], prepend=0.0)
     lent = np.where(weight == 1, -8e-3, 8e-3)  # what the encoder's part needs more, and gives back
-    assert np.abs(more[begins] - lent[begins]).max() < 1.5e-3
+    assert np.abs(more[begins] - lent[begins]).max() < 2e-3
     assert trace["true.energy"].min() >= -1e-9
 
 
@@ -272,3 +272,13 @@ def test_a_device_that_friction_holds_does_not_contradict_the_model() -> None:
     assert not trace["est.fallback"].any()
     depth = trace.axis("true.x")[5000:] - 0.01
     assert 0 < depth.min() < depth.max() < 0.8e-3
+
+
+def test_the_force_loop_rests_while_readings_contradict_the_model() -> None:
+    """A sensor that is late by 2 ms fed a hand that shakes at 169 Hz: 1.4 mW through K_p, without end."""
+    shake = ebac.Sine(centre=0.000946, amplitude=0.01153, frequency=169.45, phase=1.809)
+    hand = ebac.Hand(mass=0.0348, damping=0.2555, stiffness=1500, path=[shake])
+    device = ebac.Device(sensor=ebac.ForceSensor(noise=0.03, delay=0.002))
+    trace = ebac.simulate(ebac.Scenario(device=device, hand=hand, seconds=30), "ebac")
+    assert (trace["est.fallback"] == int(ebac.Fallback.MODEL)).mean() > 0.5
+    assert trace["true.energy"].min() > -12e-3  # J; the reserve on the encoder alone is 10 mJ

@@ -107,7 +107,7 @@ def test_what_a_law_reads_and_a_simulation_knows_is_recorded(trace: ebac.Trace) 
 
 
 def test_shapes_follow_the_number_of_axes(trace: ebac.Trace) -> None:
-    whole = {"tick", "t", "lateness", "fault", "state", "limited", "skipped"}
+    whole = {"tick", "t", "lateness", "fault", "state", "limited", "skipped", "ramp"}
     for name in trace:
         several = trace.axes > 1 and name not in whole
         assert trace[name].shape == ((301, trace.axes) if several else (301,)), name

@@ -67,8 +67,8 @@ class Ebac {
   /// After this law has taken over from another: the account begins anew and is raised to what this contact stores,
   /// while it lasts.
   void begin_account() EBAC_RT { shared_.ledger.begin(stored()); }
-  /// Of what this contact stores, `part` has come in this tick with no motion, as another world takes over; below zero
-  /// where it stored more before. At the end, when `in_all` has come, that much of what the account lacks is owed.
+  /// Of what this contact stores, `part` has come in this tick with no motion, as another world takes over or the force
+  /// comes in; below zero where it stored more before. At the end, when `in_all` has come, that much of what the account lacks is owed.
   void store(double part, double in_all) EBAC_RT {
     shared_.ledger.store(part * stored());
     if (in_all > 0) shared_.ledger.owe(stored(), in_all * stored());

@@ -136,13 +136,13 @@ class EbacByEncoder {
     shared.ledger.lend(at_rest(port) ? shared.reserve_at_rest() : shared.params.reserve);
   }
 
-  /// Eq. (2), without the force loop while the observer finds the sensor stale or failing. Without an observer it is the
-  /// limits of the loop that end a run whose sensor does.
+  /// Eq. (2), without the force loop while the observer finds the sensor stale or failing, or its readings against the
+  /// model: one that is late is. Without an observer it is the limits of the loop that end a run whose sensor fails.
   double feedback(double desired, const Port& port) EBAC_RT {
     const auto fallback = static_cast<Fallback>(port.est.fallback);
-    if (fallback != Fallback::kForceStale && fallback != Fallback::kForceStatus) {
-      return loop_.step(desired, port.f_meas, port.dt);
-    }
+    const bool doubted = fallback == Fallback::kForceStale || fallback == Fallback::kForceStatus ||
+                         fallback == Fallback::kModel;
+    if (!doubted) return loop_.step(desired, port.f_meas, port.dt);
     loop_.reset();
     return 0;
   }

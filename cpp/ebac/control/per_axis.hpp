@@ -83,6 +83,13 @@ class PerAxis : public Replaceable<Law> {
   {
     take_over_.world(before, now);
   }
+  /// Of the force that is sent, `part` has come in with this tick, as at a soft start, and with it of what each contact
+  /// stores; below zero where it went. `whole`: all is sent now.
+  void come_in(double part, bool whole) EBAC_RT
+    requires requires(Law law) { law.store(part, 0.0); }
+  {
+    for (Law& law : laws_) law.store(part, whole ? 1 : 0);
+  }
   static std::array<Law, kMaxAxes> replacement(const Law& law)
     requires std::same_as<Law, AnyLaw>
   {

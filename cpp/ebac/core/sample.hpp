@@ -193,6 +193,7 @@ struct Sample {
   int state = static_cast<int>(LoopState::kRun);
   int limited = 0;
   int skipped = 0;  // ticks
+  double ramp = 1;
   std::array<Axis, kMaxAxes> axis{};
 
   static constexpr auto fields() {
@@ -207,6 +208,9 @@ struct Sample {
           "sum of what held a current back: 1 peak, 2 thermal, 4 slew, 8 edge, 16 ramp, 32 no "
           "number"},
         F{"skipped", &Sample::skipped, "1", "ticks before this one that could not be kept"},
+        F{"ramp", &Sample::ramp, "1",
+          "share of the currents that was sent: below 1 in a soft start and in a stop, 0 with a "
+          "fault"},
     };
   }
 };

@@ -131,18 +131,21 @@ class Loop {
     } else {
       if (run_state_.first()) begin(axes);
       render(chain_, law_, now, axes);
+      if (came() != 0) come_in();
     }
     if (arming) restart();
     note(reading, now, axes);
+    double sent = 0;
     if (sample_.fault == Fault::kNone && run_state_.gain() > 0) {
       const int limited = limiter_.limit(axes, run_state_.gain(), now.dt);
       // What is stored now keeps the row waiting: see copy_words.
       if (limited != sample_.limited) sample_.limited = limited;
-      chain_.sent_with(gain());
+      sent = gain();
     } else {
       shut(now, axes);
-      chain_.sent_with(0);
     }
+    if (sent != sample_.ramp) sample_.ramp = sent;
+    chain_.sent_with(sent);
     stop_device();
     if constexpr (kTimed) clock_.finish();
     if (row != nullptr) rows_.write(row, sample_, axes.size(), law_, parts());
@@ -154,6 +157,13 @@ class Loop {
   /// Not part of the tick's one function: a simulation has no updates.
   [[gnu::noinline]] void take(ParameterUpdates<Law>& updates) EBAC_RT {
     updates.apply(sample_.tick, law_, chain_, device_, axes_in_use(sample_), sample_.t);
+  }
+
+  /// What a contact stores by a soft start no motion has paid for. Nor is this a part of the one function.
+  [[gnu::noinline]] void come_in() EBAC_RT {
+    if constexpr (requires { law_.come_in(0.0, true); }) {
+      law_.come_in(came(), gain() >= 1);
+    }
   }
 
   void restart() EBAC_RT {
@@ -188,6 +198,15 @@ class Loop {
       return device_.gain();
     } else {
       return run_state_.gain();
+    }
+  }
+
+  /// What has come in of it in this tick; of a log, what came in.
+  double came() const EBAC_RT {
+    if constexpr (kRecorded) {
+      return device_.came();
+    } else {
+      return run_state_.came();
     }
   }
 

@@ -67,6 +67,7 @@ class RunStateMachine {
       first_ = true;
     }
     if (state_ == LoopState::kRun && (asked || (plan_.ticks > 0 && ran_ >= plan_.ticks))) end();
+    before_ = gain_;
     if (state_ == LoopState::kRun) {
       ++ran_;
       gain_ = plan_.soft_start > 0 ? std::min(1.0, gain_ + dt / plan_.soft_start) : 1.0;
@@ -105,7 +106,9 @@ class RunStateMachine {
 
   LoopState state() const EBAC_RT { return state_; }
   Fault fault() const EBAC_RT { return fault_; }
-  double gain() const EBAC_RT { return gain_; }           // of the force, 0 to 1
+  double gain() const EBAC_RT { return gain_; }  // of the force, 0 to 1
+  /// What has been added to it in this tick, by a soft start; below zero after a pause.
+  double came() const EBAC_RT { return state_ == LoopState::kRun ? gain_ - before_ : 0.0; }
   bool first() const EBAC_RT { return first_; }           // the first tick under the law, after Arm
   bool stopping() const EBAC_RT { return stopped_ > 0; }  // the force is zero: stop the device
   const RunPlan& plan() const EBAC_RT { return plan_; }
@@ -115,6 +118,7 @@ class RunStateMachine {
   LoopState state_ = LoopState::kIdle;
   Fault fault_ = Fault::kNone;
   double gain_ = 0;
+  double before_ = 0;
   bool first_ = false;
   std::int64_t ran_ = 0;  // ticks in kRun
   int stopped_ = 0;       // ticks of zero force in kStop

@@ -95,6 +95,7 @@ void tick(SignalChain& chain, Law& law, D& device, const Instant& now, Sample& s
   if (s.fault == Fault::kNone) s.fault = judge(reading, axes);
   if (s.fault != Fault::kNone) {  // from here on, zero force
     for (Axis& axis : axes) axis.port.f_cmd = axis.joint.tau = axis.joint.current = 0;
+    s.ramp = 0;
     chain.sent_with(0);
   }
 }

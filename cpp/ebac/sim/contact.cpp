@@ -114,6 +114,12 @@ void measure_force(const ContactRecord& r, std::size_t tail, std::size_t still_f
   c.perceived = perceived.perceived;
 }
 
+std::size_t tail_rows(const ContactRecord& r) {
+  const auto share =
+      static_cast<std::size_t>(std::lround(kTailShare * static_cast<double>(r.x.size())));
+  return std::max<std::size_t>(2, share);
+}
+
 void check_rows(const ContactRecord& r) {
   const std::size_t rows = r.x.size();
   if (rows < kFewestRows) {
@@ -133,11 +139,28 @@ void check_rows(const ContactRecord& r) {
 
 }  // namespace
 
+void WallContact::take_worse(const WallContact& other) {
+  if (!(other.swing <= swing)) limit_cycle = other.limit_cycle;
+  for (double WallContact::* of :
+       {&WallContact::swing, &WallContact::force_swing, &WallContact::force_step,
+        &WallContact::most_pull, &WallContact::ripple, &WallContact::ripple_rms,
+        &WallContact::ripple_high, &WallContact::jumps, &WallContact::perceived}) {
+    this->*of = std::fmax(this->*of, other.*of);
+  }
+  for (double WallContact::* of : {&WallContact::settled, &WallContact::force_settled}) {
+    this->*of = std::max(this->*of, other.*of);  // never, NaN, is the worst
+    if (std::isnan(other.*of)) this->*of = kNone;
+  }
+}
+
+bool touched_at_end(const ContactRecord& r) {
+  return std::ranges::any_of(r.wall.last(std::min(tail_rows(r), r.wall.size())),
+                             [](double force) { return force != 0; });
+}
+
 WallContact measure_contact(const ContactRecord& r) {
   check_rows(r);
-  const auto share =
-      static_cast<std::size_t>(std::lround(kTailShare * static_cast<double>(r.x.size())));
-  const std::size_t tail = std::max<std::size_t>(2, share);
+  const std::size_t tail = tail_rows(r);
   const Values x = r.x.last(tail);
   WallContact c{.rest = mean(x),
                 .swing = width(x),

@@ -56,6 +56,9 @@ struct WallContact {
   /// The force settles before the tail, and its vibration is below three detection thresholds once
   /// the handle has rung down.
   bool force_quiet() const { return !std::isnan(force_settled) && perceived < kQuietPerceived; }
+  /// Of what should be small the worse of this contact and of `other`, another axis of the same run: swings, steps, pulls,
+  /// settling times and vibration. Places and energies stay.
+  void take_worse(const WallContact& other);
   /// The one definition of a quiet contact behind every verdict, study, map, border and table.
   bool quiet() const { return still() && force_quiet(); }
 
@@ -119,6 +122,9 @@ struct ContactRecord {
 /// Measures a contact; throws std::invalid_argument for fewer than `kFewestRows` rows or columns of
 /// several lengths.
 WallContact measure_contact(const ContactRecord& record);
+
+/// Whether the virtual world acts on this axis in the tail.
+bool touched_at_end(const ContactRecord& record);
 
 /// Energy that an ideal environment stores at a position: the sum of K depth^2/2.
 double stored_energy(const Environment& environment, const Axes& x) EBAC_RT;

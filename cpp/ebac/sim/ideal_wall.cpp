@@ -133,7 +133,8 @@ IdealContact ideal_contact(const Setup& setup, ContactRecorder& recorder) {
   recorder.start(rows);
   for (std::size_t i = 0; i < rows; ++i) {
     const double t = setup.timing.dt * static_cast<double>(i);
-    recorder.add(t, axis.x(), axis.force(), 0, 0);
+    recorder.add(t, 0, 0);
+    recorder.add_axis(0, axis.x(), axis.force());
     axis.advance(t);
   }
   const WallContact c = measure_contact(recorder.record());

@@ -49,6 +49,7 @@ struct ReplayRow {
   double force_age = 0;        // s
   SensorStatus force_status = SensorStatus::kGood;
   double gain = 1;  // of soft start or stop, with which the currents of this tick were sent
+  double came = 0;  // what had been added to it in this tick
 };
 
 /// The ticks of a log. Row i has `axes` entries in `axis`, from i * axes on.
@@ -89,6 +90,7 @@ class ReplayDevice {
   /// Of the tick: the current that was sent [A], and the gain of soft start or stop in it.
   double sent(std::size_t axis) const EBAC_RT { return state(axis).current; }
   double gain() const EBAC_RT { return log_->row[at_].gain; }
+  double came() const EBAC_RT { return log_->row[at_].came; }
 
   const State& state(std::size_t axis) const EBAC_RT {
     return log_->axis[at_ * log_->axes + axis].recorded;

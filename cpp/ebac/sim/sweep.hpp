@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <cmath>
 #include <functional>
@@ -54,9 +55,11 @@ using SweepWork = std::function<void(std::size_t, ContactRecorder&)>;
 /// recorder belongs to a thread. An exception of a call ends the sweep and is thrown again here.
 void for_each_run(std::size_t count, int threads, SweepProgress& progress, const SweepWork& work);
 
-/// Adds a row of the first axis; the energies are those of all axes. `clamped` is the law's state of
-/// that name, or nullptr. Returns whether the run is within its limits.
-inline bool keep_row(const Sample& s, const SimulatedDevice& device, const bool* clamped,
+/// The law's state "clamped" of each axis, or nullptr: whether the law limited its force.
+using Clamped = std::array<const bool*, kMaxAxes>;
+
+/// Adds a row of every axis; the energies are those of all. Returns whether the run is within its limits.
+inline bool keep_row(const Sample& s, const SimulatedDevice& device, const Clamped& clamped,
                      const Setup& setup, StoredEnergy& stored, const RunLimits& limits,
                      ContactRecorder& recorder) {
   Axes x = Axes::Zero();
@@ -65,33 +68,43 @@ inline bool keep_row(const Sample& s, const SimulatedDevice& device, const bool*
     x[static_cast<Eigen::Index>(i)] = device.state(i).x;
     energy += device.state(i).energy;
   }
-  const Port& port = s.axis[0].port;
-  recorder.add(s.t, x[0], port.f_applied, energy, stored.at(x, s.t));
-  const bool acts = port.f_env != 0 || port.f_cmd != 0 || port.f_applied != 0;
-  recorder.add_pull(acts ? setup.hand.pull(0, s.t, x[0]) : 0.0);
-  recorder.add_wall(port.f_env);
-  if (clamped != nullptr) recorder.add_clamped(*clamped);
+  recorder.add(s.t, energy, stored.at(x, s.t));
+  for (std::size_t i = 0; i < static_cast<std::size_t>(s.axes); ++i) {
+    const Port& port = s.axis[i].port;
+    const double at = device.state(i).x;
+    const bool acts = port.f_env != 0 || port.f_cmd != 0 || port.f_applied != 0;
+    recorder.add_axis(i, at, port.f_applied);
+    recorder.add_world(i, port.f_env, acts ? setup.hand.pull(i, s.t, at) : 0.0);
+    if (clamped[i] != nullptr) recorder.add_clamped(i, *clamped[i]);
+  }
   return x.cwiseAbs().maxCoeff() <= limits.position && energy >= -limits.energy;
 }
 
-/// Whether the law limited its force, if its state records it.
 template <ScalarLaw Law>
-const bool* clamped_of(const PerAxis<Law>& law) {
+Clamped clamped_of(const PerAxis<Law>& law) {
+  Clamped clamped{};
   if constexpr (std::same_as<Law, AnyLaw>) {
     const FieldRow* field = law.state_table().find("clamped");
-    return field != nullptr && field->kind == FieldKind::kBool ? &field->in<bool>(law.state(0))
-                                                               : nullptr;
+    if (field == nullptr || field->kind != FieldKind::kBool) return clamped;
+    for (std::size_t i = 0; i < kMaxAxes; ++i) clamped[i] = &field->in<bool>(law.state(i));
   } else if constexpr (requires { law.state(0).clamped; }) {
-    return &law.state(0).clamped;
-  } else {
-    return nullptr;
+    for (std::size_t i = 0; i < kMaxAxes; ++i) clamped[i] = &law.state(i).clamped;
   }
+  return clamped;
 }
 
 /// Looks at the rows of a run and keeps nothing.
 struct NoWatch {
   void operator()(const Sample&, const SimulatedDevice&) const EBAC_RT {}
 };
+
+/// Adds to the contact of the first axis what the others do, where the world acts on them at the end.
+inline void take_others(const ContactRecorder& recorder, WallContact& contact) {
+  for (std::size_t i = 1; i < recorder.axes(); ++i) {
+    const ContactRecord record = recorder.record(i);
+    if (touched_at_end(record)) contact.take_worse(measure_contact(record));
+  }
+}
 
 /// One run: the ticks of `simulate`, kept as metrics; `watch` sees every row.
 template <ScalarLaw Scalar, class Watch = const NoWatch>
@@ -100,7 +113,7 @@ Outcome measure_run(const Setup& setup, const Scalar& scalar, const RunLimits& l
                     Watch& watch = NoWatch{}) {
   constexpr std::size_t kLook = 256;  // ticks between two looks at `cancelled`
   PerAxis<Scalar> law(scalar);
-  const bool* clamped = clamped_of(law);
+  const Clamped clamped = clamped_of(law);
   SimulatedDevice device(setup);
   VirtualClock clock(setup.timing.dt, setup.jitter, setup.seed);
   SignalChain chain(setup.device, setup.environment, law.timing(), observing(setup.observer, law));
@@ -109,7 +122,7 @@ Outcome measure_run(const Setup& setup, const Scalar& scalar, const RunLimits& l
   sample.axes = setup.device.axes();
   Outcome outcome;
   const std::size_t rows = row_count(setup);
-  recorder.start(rows);
+  recorder.start(rows, static_cast<std::size_t>(sample.axes));
   while (outcome.ticks < rows && outcome.fault == Fault::kNone && !outcome.diverged) {
     if (outcome.ticks % kLook == 0 && cancelled.load(std::memory_order_relaxed)) return outcome;
     tick(chain, law, device, clock.wait(), sample);
@@ -120,10 +133,11 @@ Outcome measure_run(const Setup& setup, const Scalar& scalar, const RunLimits& l
     ++outcome.ticks;
   }
   if (recorder.rows() >= kFewestRows) outcome.contact = measure_contact(recorder.record());
+  outcome.rest_power = rest_power(recorder.record(), outcome.contact);
+  if (recorder.rows() >= kFewestRows) take_others(recorder, outcome.contact);
   if (outcome.ticks < rows) {
     outcome.contact.settled = outcome.contact.force_settled = WallContact::kNone;
   }
-  outcome.rest_power = rest_power(recorder.record(), outcome.contact);
   outcome.done = true;
   return outcome;
 }

@@ -172,6 +172,7 @@ def _source(recorded: Trace, device: Device) -> _core.ReplayLog:
     dt[0] = 0
     fault = recorded["fault"].astype(np.uint32)
     each = {name: _per_axis(recorded, column) for name, column in _EACH.items()}
+    gain = recorded["ramp"] if "ramp" in recorded else _gain(recorded, device)
     return _core.ReplayLog(
         t=t,
         dt=dt,
@@ -181,13 +182,14 @@ def _source(recorded: Trace, device: Device) -> _core.ReplayLog:
         force_status=force_status(recorded, dt),
         # What a stage of the loop found, the loop finds again, or not: that is for the new law to show.
         fault=np.where(fault >= int(_core.Fault.DEVICE), fault, 0),
-        gain=_gain(recorded, device),
+        gain=gain,
+        came=np.diff(gain, prepend=gain[0]) if "ramp" in recorded else np.zeros(len(gain)),
         **each,
     )
 
 
 def _gain(recorded: Trace, device: Device) -> NDArray[np.float64]:
-    """Return the gain of soft start or stop with which the currents of each row were sent."""
+    """Return the gain with which the currents of each row were sent, of a log without `ramp`."""
     gain = np.ones(len(recorded))
     if "limited" not in recorded or "tau" not in recorded:
         return gain

@@ -58,15 +58,17 @@ COLUMNS = {
 FLAGS = ("still", "force_quiet", "quiet")
 
 
-def contact(trace: Trace, *, axis: int = 0, truth: bool = True) -> Contact:
+def contact(trace: Trace, *, axis: int | None = None, truth: bool = True) -> Contact:
     """Measure a wall contact.
 
     Parameters
     ----------
     trace : Trace
         At least 10 rows.
-    axis : int
-        Which axis to measure, [0, trace.axes).
+    axis : int, optional
+        Which axis to measure, [0, trace.axes). Default: the first, and of what should be small (swings, steps, pulls,
+        settling times, ripples, jumps, vibration) the worst of all axes on which the virtual world acts in the last
+        30 %, so that a contact is still and quiet only where all of them are.
     truth : bool
         Whether to take what a simulation knows, where the trace has it; False measures it by its readings, as a
         recorded run is measured.
@@ -90,8 +92,11 @@ def contact(trace: Trace, *, axis: int = 0, truth: bool = True) -> Contact:
         trace = under_the_law(trace)
     if len(trace) < FEWEST_ROWS:
         raise ValueError(f"the trace has {len(trace)} rows: a contact needs at least {FEWEST_ROWS}")
+    judged = range(trace.axes) if axis is None else [axis]
+    axis = judged[0]
     for name in ("t", "x", "f_applied"):
-        _refuse_gaps(trace, name, axis)
+        for each in judged:
+            _refuse_gaps(trace, name, each)
     true, with_energy = (truth and name in trace for name in ("true.x", "true.energy"))
     energy = _columns(trace, "true.energy").sum(axis=1) if with_energy else None
     stored = None
@@ -101,21 +106,27 @@ def contact(trace: Trace, *, axis: int = 0, truth: bool = True) -> Contact:
         kinematics = scenario.device.kinematics
         stored = _stored_energy(world, kinematics, _columns(trace, "true.x"), trace["t"])
     clamped = trace.axis("law.clamped", axis) if "law.clamped" in trace else None
-    pull = None
-    if scenario is not None and true:
-        acts = [trace.axis(name, axis) != 0 for name in ("f_env", "f_cmd", "f_applied")]
-        hand, x = scenario.hand, trace.axis("true.x", axis)
-        if not is_own(hand.model):
-            pull = np.where(np.any(acts, axis=0), hand.pull(trace["t"], x, axis), 0.0)
+    place = "true.x" if true else "x"
+    others = [
+        (
+            trace.axis(place, i),
+            trace.axis("f_applied", i),
+            trace.axis("f_env", i),
+            _pull(trace, i, truth),
+        )
+        for i in judged[1:]
+        if "f_env" in trace
+    ]
     numbers: Any = _measure_contact(
         t=trace["t"],
-        x=trace.axis("true.x" if true else "x", axis),
+        x=trace.axis(place, axis),
         force=trace.axis("f_applied", axis),
         energy=energy,
         stored=stored,
         clamped=clamped,
-        pull=pull,
+        pull=_pull(trace, axis, truth),
         wall=trace.axis("f_env", axis) if "f_env" in trace else None,
+        others=others,
     )
     known: dict[str, Any] = {
         name: None if isnan(value) else value for name, value in numbers.items()
@@ -129,7 +140,9 @@ def contact(trace: Trace, *, axis: int = 0, truth: bool = True) -> Contact:
         allowed_m=allowed_deviation(scenario) if scenario else None,
         seconds=float(trace["t"][-1] - trace["t"][0]),
         drawn_J=drawn(trace) if with_energy and scenario and _moves(trace) else None,
-        with_hand=simulated and not known["still"] and moves_with_hand(trace, axis),
+        with_hand=simulated
+        and not known["still"]
+        and all(moves_with_hand(trace, i) for i in judged),
         saturated_share=_saturated(trace, axis),
         **_touched(trace, axis),
         **{column: known[name] for column, name in COLUMNS.items()},
@@ -144,6 +157,16 @@ def _refuse_gaps(trace: Trace, name: str, axis: int) -> None:
             f"{name} is no number in {wrong.size} of {len(trace)} rows, first in row {wrong[0]} (counted from 0): a "
             "contact cannot be judged; take the part before it, or repair the log"
         )
+
+
+def _pull(trace: Trace, axis: int, truth: bool) -> NDArray[np.float64] | None:
+    """Return the pull of a simulated hand where the virtual world acts [N]; None where it is not known."""
+    scenario = trace.scenario
+    if scenario is None or not truth or "true.x" not in trace or is_own(scenario.hand.model):
+        return None
+    acts = [trace.axis(name, axis) != 0 for name in ("f_env", "f_cmd", "f_applied")]
+    pull = scenario.hand.pull(trace["t"], trace.axis("true.x", axis), axis)
+    return np.where(np.any(acts, axis=0), pull, 0.0)
 
 
 def _known(environment: Environment) -> bool:
