@@ -18,6 +18,7 @@ from pathlib import Path
 import adversaries as hostile
 import device_tables as devices
 import fact_tables as facts
+import failure_tables as failing
 import friction_tables as friction
 import gastroscopy_tables as gastroscopy
 import held_tables as holding
@@ -46,6 +47,7 @@ TABLES: dict[str, Callable[[Printed], str]] = {
     "robustness-good": populations.robustness_good,
     "robustness-energy": populations.robustness_energy,
     "models": populations.models,
+    "failures": failing.failures,
     "held": populations.held,
     "damped": populations.damped,
     "ablation": laws.ablation,
