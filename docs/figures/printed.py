@@ -44,7 +44,7 @@ class Printed:
 
     def document(self, command: str) -> dict[str, Any]:
         """Return the document of a command, without the word `ebac`."""
-        file = self.folder / (re.sub(r"[^\w.=,]+", "-", command) + ".json")
+        file = self.folder / (re.sub(r"[^\w.=,+]+", "-", command) + ".json")
         if not file.exists():
             print(f"ebac {command}", flush=True)
             single = command.split()[0] in ("bench", "wall", "identify")
