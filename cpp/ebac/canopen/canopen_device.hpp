@@ -46,6 +46,8 @@ class CanopenDevice {
     for (NodeLink& link : links()) link.sync();
     send(command);
     collect();
+    beat(command.elapsed);  // before SYNC it would delay it, and with it every reading of this tick
+    guard(command.elapsed);
     sequence_.tick();
     for (std::size_t i = 0; NodeLink& link : links()) {
       link.close();
@@ -110,8 +112,6 @@ class CanopenDevice {
       ++i;
       link.sent(bus_->send(link.command(sequence_.command(link.state()), torque)));
     }
-    beat(command.elapsed);
-    guard(command.elapsed);
     if (!bus_->send({.id = kSync})) {
       for (NodeLink& link : links()) ++link.row().refused;
     }
