@@ -35,6 +35,24 @@ def base_scenario(file: Path | None) -> Scenario:
     return found
 
 
+def device_base(file: Path | None) -> Scenario:
+    """Return the scenario to start from where no run is simulated: of a scenario, or a configuration of `ebac run`."""
+    from ebac.scenario_text import is_configuration
+
+    try:
+        configuration = file is not None and is_configuration(file)
+    except (OSError, ValueError):
+        configuration = False  # refused as a scenario is
+    if file is None or not configuration:
+        return base_scenario(file)
+    from ebac.hardware import Configuration
+
+    found = Configuration.load(file).scenario()
+    doubtful_device.tell(file, found.device)
+    doubtful_wall.tell_file(file, found.environment)
+    return found
+
+
 def has_seconds(file: Path) -> bool:
     """Return whether a scenario that can be read says how long a run is; else each command has a length of its own."""
     from ebac._util.text_file import read_text

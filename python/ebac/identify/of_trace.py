@@ -36,7 +36,7 @@ def where_met(
 
 
 def trace_facts(trace: Trace, axis: int) -> dict[str, Any]:
-    """Return count, lags, mass and damping, path of the hand and a remark, where a trace has a scenario."""
+    """Return count, lags, mass, damping and rotor, path of the hand and a remark, where a trace has a scenario."""
     if trace.scenario is None:
         return {"count": 0.0, "lag": 0.0, "current_lag": 3e-4, "remarks": ()}
     device = trace.scenario.device
@@ -48,6 +48,7 @@ def trace_facts(trace: Trace, axis: int) -> dict[str, Any]:
         "current_lag": device.drive.current_lag,
         "mass": device.mass if axis < 2 else None,  # a slide of three axes has another
         "damping": device.mechanics.damping,
+        "rotor": device.reflected_mass if axis < 2 else None,
         "path": path_of(trace, axis),
         "remarks": (said,),
     }

@@ -63,6 +63,8 @@ class Recording:
         First-order lag of the motor's current loop [s].
     mass, damping : float or None
         Those of the device at the handle [kg, N s/m], from the scenario in the log.
+    rotor : float or None
+        Share of that mass that is the motor's rotor [kg], from the scenario in the log.
     path : Step, Tapping, Sine, MinimumJerk, Recorded or None
         Target path of the hand, from the scenario in the log.
     remarks : tuple of str
@@ -98,6 +100,7 @@ class Recording:
     current_lag: float = 3e-4
     mass: float | None = None
     damping: float | None = None
+    rotor: float | None = None
     path: Path | None = None
     remarks: tuple[str, ...] = field(default=())
     unread: tuple[str, ...] = field(default=())

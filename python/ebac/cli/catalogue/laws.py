@@ -28,7 +28,8 @@ def laws(
     scenario: Annotated[
         Path | None,
         typer.Option(
-            help="A scenario in TOML: its device, its rate and its delay are those that laws are designed for.",
+            help="A scenario, or a configuration of `ebac run`, in TOML: its device, its rate and its delay are those "
+            "that laws are designed for.",
             show_default=False,
         ),
     ] = None,
@@ -70,7 +71,7 @@ def _designed_for(
         raise ValueError(
             f"--device {name}: the device is that of --scenario {file}; give one of the two"
         )
-    base = setting.base_scenario(file)
+    base = setting.device_base(file)
     timing = setting.choose_timing(base.known_timing, rate, delay)
     if file is not None:
         return f"the device of {file}", base.device, timing

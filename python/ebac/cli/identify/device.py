@@ -12,8 +12,7 @@ from ebac.cli.identify import options as given
 from ebac.cli.identify import report as reporting
 
 if TYPE_CHECKING:
-    from ebac._core import Device
-    from ebac.identify import DeviceResult
+    from ebac.identify import DeviceResult, Recording
 
 
 def device(
@@ -23,8 +22,9 @@ def device(
     scenario: Annotated[
         Path | None,
         typer.Option(
-            help="A scenario in TOML with your device: the rotor of its motor is part of M_h, and not of handle_mass.",
-            show_default="the reference device",
+            help="A scenario, or a configuration of `ebac run`, in TOML with your device: the rotor of its motor is "
+            "part of M_h, and not of handle_mass.",
+            show_default="the device in the log, else the reference device",
             rich_help_panel=given.FIT,
         ),
     ] = None,
@@ -48,9 +48,9 @@ def device(
     to.folder()
     with output.refusing():
         recording = reading.load(log)
-        known = setting.base_scenario(scenario).device
+        rotor = _rotor(recording, scenario)
         result = fit_device(recording)
-    table = _mechanics(result, known, scenario)
+    table = _mechanics(result, *rotor)
     files = _write(to, result, table)
     if as_json:
         more = result.to_dict()
@@ -117,12 +117,22 @@ def _static(result: DeviceResult) -> list[str]:
     ]
 
 
-def _mechanics(result: DeviceResult, known: Device, file: Path | None) -> str:
+def _rotor(recording: Recording, file: Path | None) -> tuple[float, str]:
+    """Return the share of the mass that is the rotor [kg], and whose it is: of the file, the log, or the reference."""
+    if file is not None:
+        return setting.device_base(file).device.reflected_mass, f"of {file}"
+    if recording.rotor is not None:
+        return recording.rotor, "of the device in the log"
+    return (
+        setting.base_scenario(None).device.reflected_mass,
+        "of the reference device, --scenario FILE takes yours",
+    )
+
+
+def _mechanics(result: DeviceResult, rotor: float, whose: str) -> str:
     """Return what was found as the table of a device file; "" for a joint, and where no device is like that."""
     if result.recording.rotary or result.impossible:
         return ""
-    whose = "of the reference device, --scenario FILE takes yours" if file is None else f"of {file}"
-    rotor = known.reflected_mass
     lines = ["[device.mechanics]"]
     for name, key in (("M_h", "handle_mass"), ("B_h", "damping"), ("coulomb", "coulomb")):
         found = result.estimates.get(name)
@@ -130,7 +140,7 @@ def _mechanics(result: DeviceResult, known: Device, file: Path | None) -> str:
             continue
         value, why = found.value, ""
         if name == "M_h":
-            value, why = value - rotor, f": M_h less {rotor:.4g} kg, the rotor {whose}"
+            value, why = found.value - rotor, f": M_h less {rotor:.4g} kg, the rotor {whose}"
         if not found.determined:
             lines.append(f"# {key}: {name} is not determined by this log")
         elif name == "M_h" and value <= 0:

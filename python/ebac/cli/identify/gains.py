@@ -41,8 +41,8 @@ def gains(
     scenario: Annotated[
         Path | None,
         typer.Option(
-            help="A scenario in TOML with your device: motor, drive, encoder; with [environment] the wall is that of "
-            "the file, not of the log, and with [timing] the delay.",
+            help="A scenario, or a configuration of `ebac run`, in TOML with your device: motor, drive, encoder; with "
+            "[environment] the wall is that of the file, not of the log, and with [timing] the delay.",
             show_default="the reference device",
             rich_help_panel=given.FIT,
         ),
@@ -184,7 +184,7 @@ def _parts(file: Path | None) -> tuple[Device | None, Wall | None, int]:
     from ebac._util.text_file import read_text
     from ebac._util.toml import parsed
 
-    base = setting.base_scenario(file)
+    base = setting.device_base(file)
     if file is None:
         return None, None, base.timing.delay
     device = base.device

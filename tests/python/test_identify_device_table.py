@@ -1,0 +1,78 @@
+"""What `ebac identify device` proposes for the file of the device: what is surely there, with its own rotor."""
+
+import tomllib
+from pathlib import Path
+from typing import Any
+
+import pytest
+from typer.testing import CliRunner
+
+import ebac
+from ebac.cli import app
+from ebac.identify import excitation
+
+#: A configuration of `ebac run`; its table [limits] says so.
+CONFIGURATION = """
+[device]
+preset = "reference"
+[device.motor]
+rotor_inertia = 2e-6
+[device.kinematics]
+type = "Linear"
+axes = 2
+[limits]
+speed = 1.0
+"""
+
+
+def moved(device: ebac.Device, law: str = "direct") -> ebac.Trace:
+    """Return a hand that moves a device to and fro in free air."""
+    t, x = excitation.multisine(0.03, low=0.2, high=4, seconds=5)
+    hand = ebac.Hand(mass=0.1, damping=10, stiffness=900, path=excitation.path(t, x))
+    scenario = ebac.Scenario(device=device, hand=hand, environment=ebac.Free(), seconds=5)
+    return ebac.simulate(scenario, law)
+
+
+@pytest.fixture(scope="module")
+def trace() -> ebac.Trace:
+    return moved(
+        ebac.Device(
+            mechanics=ebac.Mechanics(damping=3, coulomb=0.4, handle_mass=0.02),
+            motor=ebac.Motor(rotor_inertia=1e-6),
+        )
+    )
+
+
+def shown(*words: str) -> str:
+    run = CliRunner().invoke(app, ["identify", "device", *words], env={"COLUMNS": "200"})
+    assert run.exit_code == 0, run.output
+    return run.stdout
+
+
+def proposed(*words: str) -> dict[str, Any]:
+    _, _, table = shown(*words).partition("In the file of the device:\n")
+    return tomllib.loads(table)["device"]["mechanics"]
+
+
+def test_the_rotor_is_that_of_the_device_in_the_log(tmp_path: Path, trace: ebac.Trace) -> None:
+    """It was that of the reference device, which is heavier than this one as a whole."""
+    trace.to_npz(tmp_path / "log.npz")
+    assert proposed(str(tmp_path / "log.npz"))["handle_mass"] == pytest.approx(0.02, rel=0.05)
+    assert "the rotor of the device in the log" in shown(str(tmp_path / "log.npz"))
+
+
+def test_the_rotor_may_be_that_of_a_configuration(tmp_path: Path, trace: ebac.Trace) -> None:
+    """Only `ebac specs` read both kinds of file."""
+    trace.to_npz(tmp_path / "log.npz")
+    file = tmp_path / "run.toml"
+    file.write_text(CONFIGURATION.replace("2e-6", "0.5e-6"), encoding="utf-8")
+    table = proposed(str(tmp_path / "log.npz"), "--scenario", str(file))
+    assert table["handle_mass"] == pytest.approx(0.04, rel=0.05)
+
+
+def test_laws_are_designed_for_the_device_of_a_configuration(tmp_path: Path) -> None:
+    file = tmp_path / "run.toml"
+    file.write_text(CONFIGURATION + "[timing]\ndt = 0.0005\n", encoding="utf-8")
+    run = CliRunner().invoke(app, ["laws", "eba", "--scenario", str(file)], env={"COLUMNS": "200"})
+    assert run.exit_code == 0, run.output
+    assert "run.toml at 2 kHz" in run.stdout
