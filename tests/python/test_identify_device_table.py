@@ -1,5 +1,6 @@
 """What `ebac identify device` proposes for the file of the device: what is surely there, with its own rotor."""
 
+import json
 import tomllib
 from pathlib import Path
 from typing import Any
@@ -76,3 +77,22 @@ def test_laws_are_designed_for_the_device_of_a_configuration(tmp_path: Path) -> 
     run = CliRunner().invoke(app, ["laws", "eba", "--scenario", str(file)], env={"COLUMNS": "200"})
     assert run.exit_code == 0, run.output
     assert "run.toml at 2 kHz" in run.stdout
+
+
+def test_a_lag_that_a_csv_file_does_not_say_is_named(tmp_path: Path) -> None:
+    """The log of a run that was exported determined less, without a hint."""
+    trace = moved(ebac.Device(mechanics=ebac.Mechanics(coulomb=0.4)))
+    file = tmp_path / "log.csv"
+    trace.save(file)
+    text = " ".join(shown(str(file)).split())
+    assert "seems to pass a filter with a lag of 0.8" in text
+    assert "--lag 0.0008" in text
+    document = json.loads(shown(str(file), "--json"))
+    assert document["lag_seems_s"] == pytest.approx(trace.scenario.device.sensor.lag, rel=0.1)
+    for lag in ("0.0008", "0"):  # declared, be it right or not
+        assert json.loads(shown(str(file), "--lag", lag, "--json"))["lag_seems_s"] is None
+
+
+def test_no_lag_is_named_where_there_is_none(tmp_path: Path) -> None:
+    ebac.datasets.write("device", tmp_path)
+    assert json.loads(shown(str(tmp_path / "device.csv"), "--json"))["lag_seems_s"] is None

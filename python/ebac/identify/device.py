@@ -135,12 +135,12 @@ def _searched(
     began = perf_counter()
     drive = driven(recording, current_lag, lever, without=without)
     start = first_guess(drive)
-    best, speed = _fit(drive, None, start), None
+    best, speed = fitted_device(drive, None, start), None
     fastest = PASSED * float(np.abs(drive.velocity[drive.slides]).max())
     trials = [(float(s), first_guess(drive, float(s))) for s in SPEEDS if s <= fastest]
     tried, guess = min(trials, key=lambda trial: trial[1].cost, default=(0.0, start))
     if guess.cost < 0.995 * start.cost:
-        other = _fit(drive, tried, guess)
+        other = fitted_device(drive, tried, guess)
         rise = other.values[-1] / np.sqrt(max(other.covariance[-1, -1], 1e-300))
         if other.found.likelihood < best.found.likelihood - GAIN and rise > BELIEVED:
             best, speed = other, tried
@@ -158,13 +158,15 @@ def _searched(
     )
 
 
-def _fit(drive: Drive, speed: float | None, guess: Guess) -> Fitted:
-    """Return the fit, with the values of what is fitted alone."""
+def fitted_device(
+    drive: Drive, speed: float | None, guess: Guess, *, drifts: bool = True
+) -> Fitted:
+    """Return the fit, with the values of what is fitted alone; `drifts` where the force of a sensor may drift."""
     problem, names = device_problem(drive, speed)
     p = problem.parameters
     start = np.where(np.isnan(p.fixed), 0.0, p.fixed)
     start[[p.names.index(n) for n in names]] = guess.values
     start[[p.names.index(n) for n in ("M_h", "B_h")]] = np.maximum(guess.values[:2], LEAST_START)
     sensed = drive.recording.force is not None  # what a sensor reads drifts, a command does not
-    fit = fitted(problem, [p.clip(start)], starts=1, robust=None, seed=1, drifts=sensed)
+    fit = fitted(problem, [p.clip(start)], starts=1, robust=None, seed=1, drifts=drifts and sensed)
     return replace(fit, values=fit.values[p.free])

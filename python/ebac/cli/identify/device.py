@@ -44,19 +44,28 @@ def device(
     sign that fits.
     """
     from ebac.identify import fit_device
+    from ebac.identify.device_lag import sensor_lag
 
     to.folder()
     with output.refusing():
         recording = reading.load(log)
         rotor = _rotor(recording, scenario)
         result = fit_device(recording)
+        late = sensor_lag(result) if reading.lag is None else None
     table = _mechanics(result, *rotor)
-    files = _write(to, result, table)
+    notes = [*_notes(result), *([] if late is None else [late.sentence])]
+    files = _write(to, result, notes, table)
     if as_json:
         more = result.to_dict()
         rows = more.pop("rows")
         typer.echo(
-            output.document("identify device", rows, **more, remarks=list(recording.remarks))
+            output.document(
+                "identify device",
+                rows,
+                **more,
+                remarks=list(recording.remarks),
+                lag_seems_s=None if late is None else late.lag,
+            )
         )
         _end(result)
         return
@@ -67,7 +76,7 @@ def device(
         word = "" if e.determined else "[red]not determined[/]"
         grid.add_row(e.name, f"{e.value:.4g}", f"{e.low:.4g} to {e.high:.4g}", e.unit, word)
     output.show(output.filled(grid))
-    for text in _notes(result):
+    for text in notes:
         if not (result.impossible and text in result.misses):  # the error says it
             output.say(text)
     if table:
@@ -152,7 +161,9 @@ def _mechanics(result: DeviceResult, rotor: float, whose: str) -> str:
     return "\n".join(lines)
 
 
-def _write(to: reporting.ReportOptions, result: DeviceResult, table: str) -> list[str]:
+def _write(
+    to: reporting.ReportOptions, result: DeviceResult, said: list[str], table: str
+) -> list[str]:
     from ebac.identify.figures import plot_device
 
     return reporting.report(
@@ -161,6 +172,6 @@ def _write(to: reporting.ReportOptions, result: DeviceResult, table: str) -> lis
         title="The device of eq. (6)",
         rows=[reporting.line(e) for e in result.estimates.values()],
         careful=[f"{name} is not determined by this log." for name in result.undetermined],
-        notes=[*result.recording.remarks, *_notes(result), *([table] if table else [])],
+        notes=[*result.recording.remarks, *said, *([table] if table else [])],
         draw=[lambda: plot_device(result)],
     )
