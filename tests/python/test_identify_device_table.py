@@ -5,12 +5,14 @@ import tomllib
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 from typer.testing import CliRunner
 
 import ebac
+from ebac import identify
 from ebac.cli import app
-from ebac.identify import excitation
+from ebac.identify import Recording, excitation, fit_device
 
 #: A configuration of `ebac run`; its table [limits] says so.
 CONFIGURATION = """
@@ -53,6 +55,35 @@ def shown(*words: str) -> str:
 def proposed(*words: str) -> dict[str, Any]:
     _, _, table = shown(*words).partition("In the file of the device:\n")
     return tomllib.loads(table)["device"]["mechanics"]
+
+
+def test_damping_and_friction_are_those_that_are_surely_there(
+    tmp_path: Path, trace: ebac.Trace
+) -> None:
+    """They were the estimates, and the page calls damping a lower bound."""
+    trace.to_npz(tmp_path / "log.npz")
+    found = fit_device(identify.load(tmp_path / "log.npz")).estimates
+    table = proposed(str(tmp_path / "log.npz"))
+    assert table["damping"] == pytest.approx(found["B_h"].low, rel=1e-3)
+    assert table["coulomb"] == pytest.approx(found["coulomb"].low, rel=1e-3)
+    assert table["damping"] < found["B_h"].value
+
+
+def test_a_friction_that_may_be_twice_as_large_is_not_determined() -> None:
+    """0.06 N, -0.05 to 0.18 N, passed for a result, since it was compared with the force of the hand alone."""
+    device = ebac.Device(mechanics=ebac.Mechanics(coulomb=0.02, gravity=0.0))
+    r = Recording.from_trace(moved(device))
+    rough = r.force + 0.5 * np.random.Generator(np.random.PCG64(1)).standard_normal(len(r.t))
+    found = fit_device(Recording(name="log", t=r.t, x=r.x, force=rough, count=r.count, lag=r.lag))
+    coulomb = found.estimates["coulomb"]
+    assert coulomb.high > 1.5 * coulomb.value
+    assert not coulomb.determined
+
+
+def test_no_weight_and_no_friction_are_determined() -> None:
+    """They have no quarter of their value."""
+    device = ebac.Device(mechanics=ebac.Mechanics(coulomb=0.0, gravity=0.0))
+    assert fit_device(Recording.from_trace(moved(device))).undetermined == ()
 
 
 def test_the_rotor_is_that_of_the_device_in_the_log(tmp_path: Path, trace: ebac.Trace) -> None:

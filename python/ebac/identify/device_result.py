@@ -21,6 +21,9 @@ from ebac.identify.validation import flip_advice, seems_flipped
 
 #: Standard gravity [m/s^2].
 GRAVITY = 9.80665
+#: A parameter is determined where half of its interval is this share of its value at most. Friction and weight may be
+#: none: they are, too, where half of the interval is this share of the force that moves the device.
+SHARE, OF_FORCE = 0.25, 0.02
 UNITS = ("kg", "N s/m", "N", "N", "N")
 ROTARY_UNITS = ("kg m^2", "N m s/rad", "N m", "N m", "N m")
 
@@ -80,9 +83,9 @@ class DeviceResult:
         if self.impossible:
             return False
         if name in ("M_h", "B_h"):
-            return half <= 0.25 * abs(value)
+            return half <= SHARE * abs(value)
         reach = float(np.sqrt(np.mean(self.drive.force[self.drive.slides] ** 2)))
-        return half <= 0.25 * max(abs(value), reach)
+        return half <= max(SHARE * abs(value), OF_FORCE * reach)
 
     @property
     def undetermined(self) -> tuple[str, ...]:

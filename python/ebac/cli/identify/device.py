@@ -139,7 +139,10 @@ def _rotor(recording: Recording, file: Path | None) -> tuple[float, str]:
 
 
 def _mechanics(result: DeviceResult, rotor: float, whose: str) -> str:
-    """Return what was found as the table of a device file; "" for a joint, and where no device is like that."""
+    """Return what was found as the table of a device file; "" for a joint, and where no device is like that.
+
+    Damping and friction are those that are surely there, because laws and observer count with them.
+    """
     if result.recording.rotary or result.impossible:
         return ""
     lines = ["[device.mechanics]"]
@@ -147,7 +150,7 @@ def _mechanics(result: DeviceResult, rotor: float, whose: str) -> str:
         found = result.estimates.get(name)
         if found is None:
             continue
-        value, why = found.value, ""
+        value, why = found.low, ", the lower end of the interval"
         if name == "M_h":
             value, why = found.value - rotor, f": M_h less {rotor:.4g} kg, the rotor {whose}"
         if not found.determined:
