@@ -12,6 +12,7 @@ import ebac
 from ebac.cli import app
 from ebac.datasets import joystick_text
 from ebac.hardware import Configuration
+from ebac.identify import Target, fit_gains, fit_loop, load
 from ebac.laws import LAWS, design
 from ebac.laws.making import FORCE_GAINS
 from ebac.live import Session
@@ -68,6 +69,23 @@ def test_a_force_loop_is_refused(law: Any, changes: dict[str, float]) -> None:
         ValueError, match=r"k[pd] = .*: feeds back a measured force, but the device"
     ):
         ebac.simulate(SHORT.replace(device=BARE), law, **changes)
+
+
+def test_gains_of_a_force_loop_need_a_force_sensor(tmp_path: Path) -> None:
+    """It blamed a kp that nobody had given, the one of the design."""
+    ebac.datasets.write("press", tmp_path)
+    file = tmp_path / "bare.toml"
+    file.write_text("device.sensor.fitted = false\n", encoding="utf-8")
+    words = ["identify", "gains", str(tmp_path / "press.csv"), "--switch", "1.0"]
+    run = CliRunner().invoke(app, [*words, "--scenario", str(file)])
+    assert run.exit_code == 2
+    said = " ".join(run.output.split())
+    assert "the device has no force sensor, which a force loop needs" in said
+    assert "Leave out fitted = false" in said
+    assert "tca-damped.kp" not in said
+    loop = fit_loop(load(tmp_path / "press.csv"), Target.steps(1.0), device=BARE)
+    with pytest.raises(ValueError, match=r"^device\.sensor\.fitted = False: the device has no"):
+        fit_gains(loop, "tca-damped")
 
 
 @pytest.mark.parametrize(

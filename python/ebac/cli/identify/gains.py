@@ -183,11 +183,14 @@ def _parts(file: Path | None) -> tuple[Device | None, Wall | None, int]:
     from ebac import Linear, Wall
     from ebac._util.text_file import read_text
     from ebac._util.toml import parsed
+    from ebac.identify.gains.gains import NO_SENSOR
 
     base = setting.device_base(file)
     if file is None:
         return None, None, base.timing.delay
     device = base.device
+    if not device.sensor.fitted:
+        raise ValueError(f"--scenario {file}: {NO_SENSOR}")
     if not isinstance(device.kinematics, Linear):
         device = device.replace(
             kinematics=Linear(radius=device.radius)

@@ -15,6 +15,12 @@ from ebac.identify.loop import DEPTH, LoopModel
 from ebac.laws import Variant
 from ebac.scenario import Scenario
 
+#: Why no gains are chosen for a device without a force sensor, and what to do.
+NO_SENSOR = (
+    "the device has no force sensor, which a force loop needs: its gains kp and kd feed back a measured force. Leave "
+    "out fitted = false in [device.sensor] if the device has one (in a configuration of `ebac run` add [sensor]); "
+    "without one, laws run on the encoder alone, and there are no gains to choose"
+)
 #: How deep every hand presses [m].
 DEPTHS = (DEPTH, 0.5 * DEPTH)
 
@@ -140,8 +146,8 @@ def fit_gains(
     Raises
     ------
     ValueError
-        When the log does not determine the hand, the law has no force loop, the axes of the device are not straight, a
-        number is out of range, or no pair keeps the constraints; the message names them.
+        When the log does not determine the hand, the law has no force loop, the device has no force sensor, its axes
+        are not straight, a number is out of range, or no pair keeps the constraints; the message names them.
     """
     require(
         loop,
@@ -159,6 +165,8 @@ def fit_gains(
     if evaluations < 1:
         raise ValueError(f"evaluations = {evaluations}: must be at least 1")
     device = loop.device
+    if not device.sensor.fitted:
+        raise ValueError(f"device.sensor.fitted = False: {NO_SENSOR}")
     if not isinstance(device.kinematics, Linear):
         raise ValueError(
             f"device = a {type(device.kinematics).__name__}: presses are simulated on a straight axis; give fit_loop "
