@@ -127,6 +127,17 @@ def test_an_option_of_the_sensor_is_refused_without_one(words: str, answer: str)
     assert answer in " ".join(result.output.split())
 
 
+def test_a_noise_that_is_refused_is_not_noted_too(tmp_path: Path) -> None:
+    """A note said of the same option what the error says."""
+    file = tmp_path / "bare.toml"
+    file.write_text("device.sensor.fitted = false\n", encoding="utf-8")
+    words = ["wall", "--scenario", str(file), "--device-noise", "0.03"]
+    result = CliRunner().invoke(app, words)
+    assert result.exit_code == 2
+    assert "Note" not in result.output
+    assert result.output.count("no force sensor") == 1
+
+
 def test_another_value_than_a_table_names_the_way_to_leave_it_out() -> None:
     with pytest.raises(
         ValueError, match=r"must be a table; a device without a sensor has .*fitted"

@@ -197,16 +197,17 @@ def choose_device(device: Device, options: Mapping[str, Any]) -> Device:
     """Return the device that an option names, or `device`, with the parts that options change."""
     name = options.get("device")
     chosen = known_device(name) if name is not None else device
+    fitted = options.get("device_sensor")
+    if not (chosen.sensor.fitted if fitted is None else fitted) and options.get("device_noise"):
+        raise ValueError(
+            "--device-noise: the device has no force sensor that could have noise; leave it out"
+        )
     for option, (part, field) in DEVICE_PARTS.items():
         if options.get(option) is not None:
             before = chosen
             changed = getattr(chosen, part).replace(**{field: options[option]})
             chosen = chosen.replace(**{part: changed})
             doubtful_device.tell_change(f"--{option.replace('_', '-')}", before, chosen)
-    if not chosen.sensor.fitted and options.get("device_noise"):
-        raise ValueError(
-            "--device-noise: the device has no force sensor that could have noise; leave it out"
-        )
     return chosen
 
 
