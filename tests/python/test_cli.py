@@ -868,6 +868,32 @@ def test_hands_that_the_motor_is_too_weak_for_are_counted(
     assert f"{count} of the 60 hands press with more than the motor can give, 8 N" in told
 
 
+def test_a_weak_motor_is_told_from_the_wall_on_where_it_is_too_weak(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    """It said the count of one wall of all of the search, and the table beside it had 60 of 60 hands."""
+    from ebac.cli import weak_motor
+
+    device = ebac.Device(motor=ebac.Motor(rated_torque=0.008))
+    base, hands = ebac.Scenario(device=device), ebac.Operators.grid()
+    weak_motor.tell_walls(hands, base, (500.0, 100.0, 400.0))
+    told = " ".join(capsys.readouterr().err.split())
+    assert (
+        "at a wall of 0.4 kN/m and stiffer, hands press with more than the motor can give, 6.4 N"
+        in told
+    )
+    assert (
+        "for 12 of the 60 hands there, for 24 at 0.5 kN/m; this does not concern softer walls"
+        in told
+    )
+    weak_motor.tell_walls(hands, base, (500.0,))
+    told = " ".join(capsys.readouterr().err.split())
+    assert "at a wall of 0.5 kN/m, hands press" in told
+    assert told.endswith("for 24 of the 60 hands there.")
+    weak_motor.tell_walls(hands, base, (100.0,))
+    assert capsys.readouterr().err == ""
+
+
 def test_runs_of_many_hands_that_are_too_short_are_named(
     capsys: pytest.CaptureFixture[str],
 ) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
 from ebac.cli import output
@@ -30,13 +31,43 @@ def sentence(scenario: Scenario) -> str:
 
 def tell(population: Operators, base: Scenario) -> None:
     """Say on stderr for how many hands the motor is too weak at their ideal rest."""
-    most = base.device.peak_force
-    weak = sum(_at_rest(scenario) > most for scenario in population.scenarios(base))
-    if weak:
+    if weak := _weak(population, base):
         output.note(
-            f"{weak} of the {len(population)} hands press with more than the motor can give, {most:.3g} N "
-            "(device.motor.rated_torque, device.drive.peak_ratio): no law can be exact for them"
+            f"{weak} of the {len(population)} hands press with more than the motor can give, "
+            f"{_given(base)}: no law can be exact for them"
         )
+
+
+def tell_walls(population: Operators, base: Scenario, stiffnesses: Iterable[float]) -> None:
+    """Say on stderr from which wall [N/m] on the motor is too weak for hands, as on a stiffer one they press harder."""
+    from ebac._core import Wall
+
+    wall = base.environment
+    if not isinstance(wall, Wall):
+        return
+    walls = {one: base.replace(environment=wall.replace(stiffness=one)) for one in stiffnesses}
+    weak = {one: _weak(population, at) for one, at in sorted(walls.items())}
+    first, last = next((one for one, count in weak.items() if count), None), max(weak, default=0.0)
+    if first is None:
+        return
+    harder = "" if weak[first] == weak[last] else f", for {weak[last]} at {last / 1e3:g} kN/m"
+    softer = "" if first == min(weak) else "; this does not concern softer walls"
+    output.note(
+        f"at a wall of {first / 1e3:g} kN/m{'' if first == last else ' and stiffer'}, hands press with more than the "
+        f"motor can give, {_given(base)}: no law can be exact for {weak[first]} of the {len(population)} hands "
+        f"there{harder}{softer}"
+    )
+
+
+def _weak(population: Operators, base: Scenario) -> int:
+    """Return for how many hands the motor is too weak at their ideal rest."""
+    most = base.device.peak_force
+    return sum(_at_rest(scenario) > most for scenario in population.scenarios(base))
+
+
+def _given(base: Scenario) -> str:
+    """Return the largest force of the motor, and where it comes from."""
+    return f"{base.device.peak_force:.3g} N (device.motor.rated_torque, device.drive.peak_ratio)"
 
 
 def _at_rest(scenario: Scenario) -> float:

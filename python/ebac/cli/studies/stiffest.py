@@ -71,6 +71,8 @@ def stiffest(
 
     * `ebac stiffest --law all --no-device-sensor --share 0.95`: no force sensor, and 3 of the 60 hands may be lost
     """
+    from ebac.studies.stiffest import LADDER
+
     with output.refusing():
         laws = changed_laws.beside(by_name.laws(law or ["all"]), change or [])
         _check(share, wall_stiffness or ())
@@ -84,7 +86,7 @@ def stiffest(
             "threads": threads,
             **({"stiffnesses": wall_stiffness} if wall_stiffness else {}),
         }
-        weak_motor.tell(given["population"], given["base"])
+        weak_motor.tell_walls(given["population"], base, wall_stiffness or LADDER)
         short_runs.tell(given["base"])
     folder = to.folder("stiffest", as_json=as_json, resume=study_results.BUNDLES * resume)
     found = _run(laws, given, folder, resume, quiet=as_json)
