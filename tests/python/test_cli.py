@@ -450,7 +450,9 @@ def test_a_fault_is_told_and_its_log_kept(monkeypatch: pytest.MonkeyPatch, tmp_p
             "study --device-friction 1",
             "did you mean --device-coulomb or --device-friction-compensation; see",
         ),
-        ("ablation --law mine.py:Mine", "here a law of your own is used from Python only"),
+        ("ablation --law mine.py:Mine", "this command takes the laws of the package only"),
+        ("laws mine.py:Damped", "is taken by --law of `ebac wall`, `ebac study`"),
+        ("laws mine.py:Damped", "this command takes the laws of the package only"),
         (
             "wall --change guard=off",
             "--change: there is no such option here; `ebac ablation`, `ebac stiffest`, `ebac worst` and `ebac zwidth` "

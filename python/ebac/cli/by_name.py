@@ -14,7 +14,10 @@ if TYPE_CHECKING:
     from ebac.laws import AnyLaw
 
 #: What follows where a law looks like a file or a class, of a command that takes the package's laws only.
-_OWN_LAW = "; here a law of your own is used from Python only: see docs/how-to/write_a_law.md"
+_OWN_LAW = (
+    "; this command takes the laws of the package only. A law of your own, FILE.py:NAME, is taken by --law of "
+    "`ebac wall`, `ebac study`, `ebac stiffest` and others that simulate: see docs/how-to/write_a_law.md"
+)
 
 
 def one_law(name: str, option: str = "--law", own: str = _OWN_LAW) -> str:
