@@ -358,6 +358,10 @@ def test_a_fault_is_told_and_its_log_kept(monkeypatch: pytest.MonkeyPatch, tmp_p
         ("wall --device-noise -1", "--device-noise = -1 N"),
         ("wall --device-counts 2 --law ebac", "give more counts per turn, --device-counts"),
         (
+            "wall --device-counts 2 --law ebac",
+            "must lie in [0, 0.01] m; it is the way of the handle",
+        ),
+        (
             "wall --device-noise 30",
             "--device-noise = 30 N: must lie in [0, 10] N, as EBAC.force_noise follows",
         ),

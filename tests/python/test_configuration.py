@@ -68,6 +68,13 @@ def test_an_empty_one_is_the_paper_s_joystick() -> None:
             "device.sensor.noise = 30 N: must lie in [0, 10] N, as EBAC.force_noise follows from it",
         ),
         (
+            "[law]\nname = 'lag-compensator'\n[device.mechanics]\nhandle_mass = 0.02\n[device.motor]\n"
+            "rotor_inertia = 0.0\n[timing]\ndelay = 1\ndt = 0.05\n",
+            9,
+            "timing.dt = 0.05 s (20 Hz): for it, 1 sample of delay and a device of 0.02 kg the design of "
+            "LagCompensator gives stiffness = 0.3889 N/m, which must lie in [1, 1e+06] N/m; give",
+        ),
+        (
             "[limits]\nspeed = 1.0\n[device.motor]\ntorque_constant = 54\n",
             3,
             "device.motor: rated_torque = 0.053 N m and torque_constant = 54 N m/A give limits.continuous_current = "

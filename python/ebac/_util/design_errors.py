@@ -1,4 +1,4 @@
-"""What is wrong with a device of which no law can be designed, by the number of it that the user gave."""
+"""What is wrong with a device or a timing of which no law can be designed, by the number that the user gave."""
 
 from __future__ import annotations
 
@@ -6,11 +6,20 @@ import re
 from collections.abc import Mapping
 from typing import Any
 
-from ebac._core import Device, DeviceFacts
+from ebac._core import Device, DeviceFacts, Timing
+from ebac._util.plural import plural
 
 
-def by_cause(message: str, device: Device | DeviceFacts, changes: Mapping[str, Any]) -> str:
-    """Return what is wrong with a design, by the number of the device that it follows from."""
+def by_cause(
+    message: str, device: Device | DeviceFacts, timing: Timing, changes: Mapping[str, Any]
+) -> str:
+    """Return what is wrong with a design, by the number of the device, or the sample time, that it follows from."""
+    facts = device.facts if isinstance(device, Device) else device
+    made = re.match(r"(\w+)\.(\w+) = (\S+)( .*?)?: (must lie in \[[^]]*\][^;]*)", message)
+    if made is not None and made[2] not in changes:
+        if not hasattr(facts, made[2]):
+            return _of_the_design(made, facts, timing)
+        message = made[0]  # its unit is no mistake of the user either
     found = re.match(r"(\w+\.(force_noise|damping)) = \S+ N(?: s/m)?: (.*)", message)
     if found is None or found[2] in changes or not isinstance(device, Device):
         return message
@@ -18,6 +27,16 @@ def by_cause(message: str, device: Device | DeviceFacts, changes: Mapping[str, A
         return _spent_by_compensation(device, found[1]) or message
     noise = device.sensor.noise
     return f"ForceSensor.noise = {noise:g} N: {found[3]}, as {found[1]} follows from it"
+
+
+def _of_the_design(made: re.Match[str], facts: DeviceFacts, timing: Timing) -> str:
+    """Return that a design computed a number out of its range, and from what."""
+    law, name, value, unit, must = made.groups()
+    return (
+        f"Timing.dt = {timing.dt:g} s ({1 / timing.dt:.4g} Hz): for it, {plural(timing.delay, 'sample')} of delay and "
+        f"a device of {facts.mass:.3g} kg the design of {law} gives {name} = {float(value):.4g}{unit or ''}, which {must}; give "
+        f"another dt or mass, {name} itself, or another law"
+    )
 
 
 def _spent_by_compensation(device: Device, parameter: str) -> str | None:

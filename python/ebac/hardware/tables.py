@@ -10,8 +10,11 @@ from ebac._util.misplaced import Misplaced, misplaced
 from ebac.drives.errors import ProfileError
 from ebac.drives.toml_positions import Path, Source, dotted
 
-#: Where the number of a device stands that a law is designed for.
-_CAUSES: dict[str, Path] = {"ForceSensor.noise": ("device", "sensor", "noise")}
+#: Where a number stands that a law is designed for.
+_CAUSES: dict[str, Path] = {
+    "ForceSensor.noise": ("device", "sensor", "noise"),
+    "Timing.dt": ("timing", "dt"),
+}
 
 
 class ConfigurationError(ProfileError):

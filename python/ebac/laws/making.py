@@ -78,7 +78,7 @@ def design(
         try:
             made = kind.design(device, timing, **changes)
         except ValueError as error:
-            raise ValueError(by_cause(str(error), device, changes)) from None
+            raise ValueError(by_cause(str(error), device, timing, changes)) from None
     elif changes:
         raise TypeError(f"{law!r} is finished: make it with {', '.join(changes)}, or give its name")
     else:
