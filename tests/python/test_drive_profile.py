@@ -83,7 +83,9 @@ def test_a_value_of_several_lines_stands_where_it_begins() -> None:
         ("rated_current = 0.985", "rated_current = 98.5", 6,
          "motor.torque_constant = 0.0538 N m/A: must lie in [0.000179, 0.00161] N m/A"),
         ("peak_torque = 0.212", "peak_torque = 0.000012", 8,
-         "motor.peak_torque = 1.2e-05 N m: the drive holds 1 raw units instead of 1.2, more than 1 % off"),
+         "motor.peak_torque = 1.2e-05 N m: the drive holds 1 raw units instead of 1.2, more than 1 % off; one unit is "
+         "1e-05 N m: give 1e-05 N m, the nearest that it can hold; or, where the drive counts in smaller units, name "
+         "motor.peak_torque under `without`"),
         ("torque_constant = 0.0538", "torque_constant = nan", 6,
          "motor.torque_constant = nan N m/A: must lie in"),
         ("counts_per_turn = 1024", "counts_per_turn = 10.5", 9,
@@ -443,13 +445,29 @@ def test_the_profile_of_an_epos_is_one_motor_throughout() -> None:
     assert raw == {"0x3001:1": 1250, "0x3001:2": 5000, "0x3001:5": 22400, "0x6076": 28000}
 
 
+@pytest.mark.parametrize("torque", [29.7e-3, 15.3e-3])
+def test_a_small_motor_is_held_in_the_units_of_the_drives_own_object(
+    torque: float, tmp_path: Path
+) -> None:
+    """`limits.rated_torque` of an EPOS4 is written in 1e-6 N m, so 1e-3 N m rounds nothing."""
+    text = read_source("maxon-epos4").text
+    path = tmp_path / "small.toml"
+    small = text.replace("rated_torque = 0.052993", f"rated_torque = {torque}", 1)
+    path.write_text(small.replace("torque_constant = 0.0538", "torque_constant = 0.025", 1))
+    held = {
+        one.object.where: one.value for one in drives.load(path, nodes=[1]).nodes[0].profile.objects
+    }
+    assert held["0x6076"] == round(1e6 * torque)
+
+
 @pytest.mark.parametrize(
     ("line", "message"),
     [
         ('{ of = "limits.current", unit = 1e-3 }', "of = 'limits.current': the profile has no number"),
         ('{ of = "torque.mode", unit = 1e-3 }', "of = 'torque.mode': the profile has no number"),
         ('{ of = "limits.rated_current" }', r"unit = None: must lie in \[1e-9, 1000\]"),
-        ('{ of = "limits.rated_current", unit = 0.5 }', "1.25 is 2.5 units of 0.5, more than 1 % off"),
+        ('{ of = "limits.rated_current", unit = 0.5 }', "1.25 is 2.5 units of 0.5, more than 1 % off a whole number: "
+         "give 1, or the unit"),
         ('{ of = "limits.rated_current", unit = 1e-3, value = 3 }', "value: must be of, unit, type or why"),
         ('{ of = "limits.rated_current", unit = 1e-9, type = "u16" }', "1250000000: must lie in"),
         ('{ of = "limits.rated_current", unit = 1e-3, type = "u17" }', "type = 'u17': must be one of"),

@@ -96,7 +96,8 @@ def following(setting: Setting, values: Mapping[str, Value]) -> Setting:
     exact = value / setting.unit
     if abs(round(exact) - exact) > 0.01 * abs(exact):
         raise ValueError(
-            f"{setting.of} = {value:g} is {exact:.4g} units of {setting.unit:g}, more than 1 % off a whole number"
+            f"{setting.of} = {value:g} is {exact:.4g} units of {setting.unit:g}, more than 1 % off a whole number: "
+            f"give {max(round(exact), 1) * setting.unit:g}, or the unit of the drive if it is a smaller one"
         )
     return dataclasses.replace(setting, value=round(exact))
 

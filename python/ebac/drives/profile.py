@@ -76,7 +76,7 @@ class Profile:
                 raise ProfileError(f"{self.name}: {wrong}")
         values = MappingProxyType({**defaults, **self.values})
         object.__setattr__(self, "values", values)
-        for name, wrong in _broken(values):
+        for name, wrong in _broken(values, self.without):
             raise ProfileError(f"{self.name}: {wrong} (key {name})")
         for name in self.without:
             if (wrong := _not_without(name)) is not None:
@@ -191,7 +191,8 @@ def read_profile(source: Source, *, base: Profile | None = None, at: Where = ())
     given = dict(_values(source, table, at))
     merged: dict[str, Value] = {**(base.values if base else {}), **given}
     defaults = {key.name: key.default for key in KEYS if key.default is not None}
-    for name, wrong in _broken({**defaults, **merged}):
+    without = _without(source, table, at) if "without" in table else base.without if base else ()
+    for name, wrong in _broken({**defaults, **merged}, without):
         key: Where = (*at, *name.split("."))
         raise source.refuse(key, wrong)
     pdos = {pdo.name: pdo for pdo in base.pdos} if base else {}
@@ -203,7 +204,6 @@ def read_profile(source: Source, *, base: Profile | None = None, at: Where = ())
             for name, item in table["pdo"].items()
             if name != "others"
         }
-    without = _without(source, table, at) if "without" in table else base.without if base else ()
     owned = {one.object.key: one for one in base.objects} if base else {}
     if "objects" in table:
         taken = {key.sets: key.name for key in KEYS if key.sets and key.name not in without}
@@ -274,8 +274,12 @@ def _others(source: Source, table: Any) -> bool:
     return bool(others == "off")
 
 
-def _broken(values: Mapping[str, Value]) -> Iterator[tuple[str, str]]:
-    """Yield the keys that do not fit the others, or the drive, and what is wrong."""
+def _broken(values: Mapping[str, Value], without: tuple[str, ...]) -> Iterator[tuple[str, str]]:
+    """Yield the keys that do not fit the others, or the drive, and what is wrong.
+
+    A key under `without` sets no object of its unit: its value only has to fit the units of what follows from it
+    (`own_objects.following`).
+    """
     for holds, name, wrong in RULES:
         if not holds(values):
             key = BY_NAME[name]
@@ -283,7 +287,7 @@ def _broken(values: Mapping[str, Value]) -> Iterator[tuple[str, str]]:
             yield name, f"{name} = {key.show(values[name])}: {what}"
     for name, value in values.items():
         key = BY_NAME[name]
-        if key.whole or key.choices or (key.per and key.per not in values):
+        if name in without or key.whole or key.choices or (key.per and key.per not in values):
             continue
         try:
             key.raw(value, values)

@@ -99,9 +99,19 @@ class Key:
         if abs(rounded - exact) > 0.01 * abs(exact):
             raise ValueError(
                 f"{self.name} = {self.show(value)}: the drive holds {rounded} raw units instead of "
-                f"{exact:.4g}, more than 1 % off; one unit is {self.show(number / exact)}"
+                f"{exact:.4g}, more than 1 % off; one unit is {self.show(number / exact)}: "
+                f"{self._whole_units(rounded, number / exact)}"
             )
         return rounded
+
+    def _whole_units(self, rounded: int, unit: float) -> str:
+        nearest = f"give {self.show(max(rounded, 1) * unit)}, the nearest that it can hold"
+        if not self.sets:
+            return nearest
+        return (
+            f"{nearest}; or, where the drive counts in smaller units, name {self.name} under `without` and set the "
+            "drive's own object under [objects], as the profile maxon-epos4 does"
+        )
 
     def _in(self) -> str:
         return f"in {self.unit}" if self.unit else f"in [{self.low:g}, {self.high:g}]"
