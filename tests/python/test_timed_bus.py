@@ -205,3 +205,25 @@ def test_the_doctor_compares_both_times(tmp_path: Path, share: float, verdict: s
     assert row["verdict"] == verdict
     assert "answers after 477 to 695 us" in row["found"]
     assert ("answer_share" in (row["remedy"] or "")) == (verdict != "good")
+
+
+def test_the_doctor_tells_that_a_run_replaces_the_sync_period_of_a_profile(tmp_path: Path) -> None:
+    def periods(setup: str, dt: str) -> tuple[list[dict[str, str]], str]:
+        file = tmp_path / "joystick.toml"
+        text = EXAMPLE.read_text().replace("dt = 1e-3", f"dt = {dt}", 1)
+        file.write_text(text.replace('setup = "verify"', f'setup = "{setup}"', 1))
+        rows = json.loads(CliRunner().invoke(app, ["doctor", str(file), "--json"]).stdout)["rows"]
+        (bus,) = [row["found"] for row in rows if row["what"] == "the bus, one tick"]
+        return [row for row in rows if row["what"].endswith("period of SYNC")], bus
+
+    same, slow = periods("verify", "1e-3")
+    assert same == []
+    verified, fast = periods("verify", "2e-3")
+    assert [row["what"] for row in verified] == ["node 1, period of SYNC", "node 2, period of SYNC"]
+    assert "sync.period = 0.001 s in its profile, timing.dt = 0.002 s" in verified[0]["found"]
+    assert verified[0]["verdict"] == "fair"
+    assert "sync.period = 0.002" in verified[0]["remedy"]
+    assert slow.rpartition("load")[2] != fast.rpartition("load")[2]  # the load is that of the loop
+    written, _ = periods("apply", "2e-3")
+    assert [(row["verdict"], row["remedy"]) for row in written] == [("good", None)] * 2
+    assert "writes it" in written[0]["found"]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -37,9 +38,9 @@ def doctor(
     """Check this machine for real-time problems.
 
     Prints how to fix each one. Kernel, clock, limits and CAN interfaces are checked; nothing is changed. "fair" means
-    that some ticks will be late, that answers on the bus may be, or that a drive whose loop stalls can throw the handle
-    to the end of the workspace, "bad" that a control loop cannot run as requested or that `ebac run` refuses a limit,
-    with exit code 1.
+    that some ticks will be late, that answers on the bus may be, that the drives may hold another SYNC period than the
+    run writes, or that a drive whose loop stalls can throw the handle to the end of the workspace, "bad" that a control
+    loop cannot run as requested or that `ebac run` refuses a limit, with exit code 1.
 
     **Examples**
 
@@ -59,6 +60,7 @@ def doctor(
                 *findings,
                 *_rating(configuration),
                 *_stalls(configuration),
+                *_sync(configuration),
                 _bus(configuration),
             ]
     verdicts = [finding.verdict for finding in findings]
@@ -82,11 +84,13 @@ def doctor(
 def _bus(path: Path) -> Finding:
     """Return how long an exchange takes on the bus of a configuration, against the time the loop waits."""
     from ebac.hardware.configuration import Configuration
+    from ebac.hardware.drive_setup import nodes_of
     from ebac.hardware.timed_bus import exchange_times
     from ebac.realtime import Finding
 
     known = Configuration.load(path)
-    load, dt = known.drives.bus_load(), known.timing.dt
+    dt = known.timing.dt
+    load = replace(known.drives, nodes=nodes_of(known, simulate=False)).bus_load()
     least, most = exchange_times(known)
     waits = known.answer_share * dt
     in_time = most <= (1 - _MARGIN) * waits
@@ -102,6 +106,38 @@ def _bus(path: Path) -> Finding:
         else f"the slowest answer must leave {100 * _MARGIN:.0f} % of the time the loop waits: raise bus.answer_share "
         f"({known.answer_share:g} now, at most 0.9) or the bit rate, lengthen timing.dt, or use a second bus",
     )
+
+
+def _sync(path: Path) -> list[Finding]:
+    """Return the drives whose profile has another SYNC period than the loop: a run wants that of the loop in 0x1006."""
+    from ebac.hardware.configuration import Configuration
+    from ebac.realtime import Finding
+
+    known = Configuration.load(path)
+    dt = known.timing.dt
+    verifies = known.setup == "verify"
+    found = []
+    for node in known.drives.nodes:
+        period = float(node.profile.values["sync.period"])
+        if abs(period - dt) <= 0.5e-6:  # as finely as 0x1006 counts
+            continue
+        then = (
+            'refuses a drive that holds anything else there, because of bus.setup = "verify"'
+            if verifies
+            else 'writes it, because of bus.setup = "apply"'
+        )
+        found.append(
+            Finding(
+                what=f"node {node.id}, period of SYNC",
+                found=f"sync.period = {period:g} s in its profile, timing.dt = {dt:g} s: `ebac run` takes timing.dt "
+                f"for 0x1006, and {then}",
+                verdict="fair" if verifies else "good",
+                remedy=f"give sync.period = {dt:g} in the profile and `ebac drive apply` it, or timing.dt = {period:g}"
+                if verifies
+                else "",
+            )
+        )
+    return found
 
 
 def _rating(path: Path) -> list[Finding]:
