@@ -36,6 +36,33 @@ def patient(**changes: Any) -> Configuration:
 # --- choosing it ---
 
 
+UNFITTED = EXAMPLE.read_text().replace(
+    "[device.kinematics]", "[device.sensor]\nfitted = false\n[device.kinematics]", 1
+)
+
+
+def test_an_observer_is_refused_where_the_device_denies_the_sensor_of_the_file() -> None:
+    """[sensor] and `fitted = false` contradict each other: the observer would be ignored."""
+    known = Configuration.from_toml(UNFITTED)
+    said = r"there is a table \[sensor\], but \[device.sensor\] says fitted = false: take that line out"
+    with pytest.raises(ValueError, match=said):
+        known.replace(observer=True)
+    with pytest.raises(ValueError, match=said):
+        Configuration.from_toml(f"{UNFITTED}\n[observer]\n")
+
+
+def test_the_command_refuses_it_and_does_not_recommend_it(tmp_path: Path) -> None:
+    file = tmp_path / "unfitted.toml"
+    file.write_text(UNFITTED)
+    command = ["run", str(file), "--virtual", "--seconds", "0.5", "--no-files"]
+    refused = CliRunner().invoke(app, [*command, "--observer"])
+    assert refused.exit_code == 2
+    assert "fitted = false" in refused.output
+    ran = CliRunner().invoke(app, command)
+    assert ran.exit_code == 0
+    assert "--observer" not in ran.output
+
+
 def test_a_table_turns_it_on_with_the_design_of_the_device() -> None:
     known = Configuration.from_toml(f"{SENSOR}[observer]\n[timing]\ndelay = 2\n")
     assert known.observer is True

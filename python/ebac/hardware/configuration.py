@@ -103,7 +103,7 @@ class Configuration:
     Raises
     ------
     ValueError
-        For an observer without a force sensor.
+        For an observer without a force sensor, or where the device says that none is fitted.
     """
 
     name: str = "a configuration"
@@ -141,7 +141,7 @@ class Configuration:
     def __post_init__(self) -> None:
         """Refuse an observer without a force, and a world that a tick cannot wait for."""
         if self.observer:
-            needs_force(self.sensor)
+            needs_force(self.sensor, self.device)
         refuse_python(self.environment)
 
     @classmethod

@@ -193,12 +193,18 @@ def _sensor(source: Source) -> SensorConfig | None:
     return made
 
 
-def needs_force(sensor: SensorConfig | None) -> None:
-    """Raise ValueError for an observer without a force sensor."""
+def needs_force(sensor: SensorConfig | None, device: Device) -> None:
+    """Raise ValueError for an observer without a force sensor, or with one that the device says it lacks."""
     if sensor is None:
         raise ValueError(
             "observer: estimates the state from a measured force, but no force sensor is configured; leave out the "
             "observer, or add a table [sensor]"
+        )
+    if not device.sensor.fitted:
+        raise ValueError(
+            "observer: estimates the state from a measured force; there is a table [sensor], but [device.sensor] says "
+            "fitted = false: take that line out if the device has the sensor, else leave out the observer and the "
+            "table [sensor]"
         )
 
 
@@ -206,7 +212,7 @@ def _observer(source: Source, values: Mapping[str, Any]) -> Observer | bool:
     """Return the observer of the table, on top of its design; True for the design itself."""
     if "observer" not in source.table:
         return False
-    refusing(source, ("observer",), lambda: needs_force(values["sensor"]))
+    refusing(source, ("observer",), lambda: needs_force(values["sensor"], values["device"]))
     designed = Observer.of(values["device"], values["timing"])
     made: Observer = on_top(source, ("observer",), designed)
     return True if made == designed else made

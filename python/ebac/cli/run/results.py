@@ -223,7 +223,9 @@ def show(result: Result) -> None:
             )
     if result.observer is not None:
         output.say(f"Observer: {result.observer}.")
-    elif result.configuration.law == "ebac" and result.configuration.sensor is not None:
+    elif (
+        result.configuration.law == "ebac" and result.configuration.scenario().device.sensor.fitted
+    ):
         output.say("By the encoder alone: with --observer the law acts on the force sensor, too.")
     if result.limits is not None:
         output.say(f"The current was held back by {result.limits}.", style="yellow")
