@@ -1,11 +1,13 @@
 """A bus in trouble: missing drivers, interfaces that go down, answers that are none. One sentence, no traceback."""
 
+import errno
 import json
 import subprocess
 import sys
 import threading
 import time
 from collections.abc import Callable
+from pathlib import Path
 from typing import Any
 
 import can
@@ -14,12 +16,40 @@ from typer.testing import CliRunner
 
 from ebac import drives
 from ebac.cli import app
+from ebac.datasets import joystick_text
 
 Open = Callable[[], can.BusABC]
 
 
 def command(*words: str) -> Any:
     return CliRunner().invoke(app, ["drive", *words])
+
+
+@pytest.mark.parametrize("number", [errno.EAFNOSUPPORT, errno.ENODEV])
+@pytest.mark.parametrize(
+    ("words", "instead"),
+    [
+        ("run FILE --yes --no-files", "the same command with --simulated takes"),
+        ("live FILE --no-browser", "the same command with --simulated in place of --allow-control takes"),
+        ("drive zero FILE", "the same command with --simulated takes"),
+        ("drive signs FILE --yes", "the same command with --simulated takes"),
+        ("drive scan --interface socketcan --channel can0", "--interface ebac --channel joystick takes"),
+    ],
+)  # fmt: skip
+def test_without_can_each_command_names_a_simulation_that_it_has(
+    words: str, instead: str, number: int, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    def absent(**_: object) -> None:
+        raise OSError(number, "absent")
+
+    monkeypatch.setattr(can, "Bus", absent)
+    file = tmp_path / "joystick.toml"
+    file.write_text(joystick_text("joystick"))
+    ran = CliRunner().invoke(app, words.replace("FILE", str(file)).split())
+    assert ran.exit_code == 1, ran.output
+    said = " ".join(ran.stderr.split())
+    assert f"Without CAN: {instead} simulated drives" in said
+    assert "ebac run --simulated" not in said
 
 
 @pytest.mark.parametrize(

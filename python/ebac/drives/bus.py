@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any, Self
 from ebac._util.arguments import whole
 from ebac._util.wrong_calls import plain_constructor
 from ebac.drives.bus_monitor import BusMonitor
-from ebac.drives.errors import BusError
+from ebac.drives.errors import BusError, NoCan
 
 if TYPE_CHECKING:
     import can
@@ -216,7 +216,8 @@ def _in_words(error: Exception, interface: str | None, channel: str | None) -> B
         known = ", ".join(sorted(can.VALID_INTERFACES))
         return BusError(f"interface {interface!r} is not usable: {error}. There are: {known}")
     if isinstance(error, OSError):
-        return BusError(f"{asked}: {error.strerror or error}; {_remedy(error.errno)}")
+        kind = NoCan if error.errno in (errno.EAFNOSUPPORT, errno.ENODEV) else BusError
+        return kind(f"{asked}: {error.strerror or error}; {_remedy(error.errno)}")
     if isinstance(error, (can.CanError, ValueError, TypeError, NotImplementedError)):
         group = "; its channel is a multicast address such as 239.74.163.2"
         return BusError(
@@ -230,10 +231,7 @@ def _in_words(error: Exception, interface: str | None, channel: str | None) -> B
 
 def _remedy(number: int | None) -> str:
     if number == errno.EAFNOSUPPORT:
-        return (
-            "this kernel has no SocketCAN: load its module (`sudo modprobe can_raw`). Simulated drives do "
-            "without: `ebac run --simulated`, or elsewhere --interface ebac --channel joystick"
-        )
+        return "this kernel has no SocketCAN: load its module (`sudo modprobe can_raw`)"
     if number == errno.ENODEV:
         return "there is no such interface: `ip link` lists them"
     if number == errno.ENETDOWN:

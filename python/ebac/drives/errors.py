@@ -29,6 +29,10 @@ class BusError(DriveError):
     """The bus cannot be opened, or takes no frame."""
 
 
+class NoCan(BusError):
+    """The machine has no such CAN interface; simulated drives need none."""
+
+
 class NoAnswer(DriveError):
     """A drive did not answer in time.
 

@@ -13,6 +13,7 @@ import typer
 
 from ebac._util.arguments import unknown
 from ebac.cli import interrupts, output
+from ebac.cli.drive import without_can
 
 if TYPE_CHECKING:
     from ebac.drives import Drive, DriveBus, Network, Sheet
@@ -148,7 +149,8 @@ def telling() -> Iterator[None]:
             yield
         except DriveError as error:
             notes = getattr(error, "__notes__", [])
-            output.fail(". ".join([str(error), *notes]), code=output.FAILED)
+            said = ". ".join([str(error), *notes])
+            output.fail(f"{said}{without_can.remedy(error)}", code=output.FAILED)
         except KeyboardInterrupt as error:
             notes = getattr(error, "__notes__", [])
             if not notes:
