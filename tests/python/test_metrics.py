@@ -3,6 +3,7 @@
 import json
 import math
 from dataclasses import replace
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -12,7 +13,7 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 import ebac
-from ebac.metrics.wall_contact import moves_with_hand
+from ebac.metrics.with_hand import moves_with_hand
 
 
 def synthetic(x: NDArray[np.float64], dt: float = 1e-3, **more: NDArray[Any]) -> ebac.Trace:
@@ -476,6 +477,37 @@ def test_tremor_and_a_hand_that_has_let_go_excuse_no_swing() -> None:
             data={name: made[name] for name in made}, columns=made.columns, axes=1, scenario=own
         )
         assert moves_with_hand(trace) is follows
+
+
+@pytest.mark.parametrize("seconds", [6, 7, 8.3, 10])
+@pytest.mark.parametrize("frequency", [0.8, 1.3])
+def test_a_hand_that_taps_has_one_verdict_whenever_the_run_ends_and_no_limit_cycle(
+    frequency: float, seconds: float
+) -> None:
+    tapping = ebac.Hand(path=ebac.Tapping(target=0.04, rest=-0.01, frequency=frequency))
+    trace = ebac.simulate(ebac.Scenario(hand=tapping, seconds=seconds), "ebac")
+    met = ebac.contact(trace)
+    assert met.verdict == "moves with the hand"
+    assert met.limit_cycle is None
+    rows = {name: trace[name] for name in trace if not name.startswith("true.")}
+    recorded = ebac.contact(ebac.Trace(data=rows, columns=tuple(rows), axes=1))
+    if seconds > 7:  # else it is less than two swings
+        assert recorded.limit_cycle_Hz == pytest.approx(frequency, rel=0.02)
+    assert (recorded.verdict, recorded.limit_cycle) == ("swings", None)  # nobody knows its target
+
+
+def test_neither_a_data_set_nor_free_air_names_the_pace_of_a_hand_a_limit_cycle(
+    tmp_path: Path,
+) -> None:
+    tapped = ebac.contact(ebac.load(ebac.datasets.write("tapping", tmp_path)))
+    assert (tapped.verdict, tapped.limit_cycle) == ("moves with the hand", None)
+    waving = ebac.Hand(path=ebac.Sine(centre=0.0, amplitude=0.012, frequency=1.3))
+    air = ebac.Scenario(hand=waving, environment=ebac.Free(), seconds=6)
+    assert ebac.contact(ebac.simulate(air, "ebac")).limit_cycle is None
+    shaking = ebac.simulate(ebac.Scenario(seconds=3), "tca")
+    rows = {name: shaking[name] for name in shaking if not name.startswith("true.")}
+    recorded = ebac.contact(ebac.Trace(data=rows, columns=tuple(rows), axes=1))
+    assert recorded.limit_cycle == pytest.approx(18.9, abs=2)
 
 
 def test_tca_swings_by_five_millimetres_or_more(run: Any) -> None:

@@ -12,7 +12,7 @@ SOFT_BELOW = 0.5
 #: Numbers of a contact that are no keys of `ebac wall --json`.
 MORE = (
     "count_m", "allowed_m", "most_drawn_J", "force_step_N", "most_pull_N", "rest_power_W", "seconds", "touched",
-    "with_hand", "saturated_share",
+    "with_hand", "at_hands_pace", "saturated_share",
 )  # fmt: skip
 #: What a printed contact shows: label, attribute, unit, what to print where there is none: with nothing, no line.
 LINES = (
@@ -120,12 +120,19 @@ class Contact:
     touched : bool or None
         Whether the virtual world ever acted; None where that is not known.
     touched_at_rest : bool or None
-        Whether it acted in the last half second of the run, or in its last 30 % where that is shorter: False where the
-        handle left the surface, and rest, swing and force are those of free air. None where that is not known.
+        Whether it acted in the last half second of the run, in 1.25 swings where that is longer, or in its last 30 %
+        where that is shorter: False where the handle left the surface, and rest, swing and force are those of free air.
+        None where that is not known.
     with_hand : bool
         Whether it swings because the target of the simulated hand still moves over the last 30 %: there the handle
         goes no longer a way, to and fro, than the target on all axes, tremor apart, and turns round no more than twice
-        as often and twice more. Such a swing is no limit cycle.
+        as often and twice more; a hand that taps may bounce, by less than a tenth of the swing. Such a swing is no
+        limit cycle.
+    at_hands_pace : bool
+        Whether the swing is no faster than the hand's, and its frequency that of no limit cycle: at most 1.25 times
+        that of the simulated hand's target over the last 30 %. Where the target is not known, as in a recording on
+        hardware, a swing of at most 3 Hz may be the hand's if the virtual world does not act in a fifth of the last
+        30 % or more: a hand that taps, or moves in free air.
     saturated_share : float or None
         Share of ticks in which the command was more than the motor's peak force, which is applied then. None without a
         scenario, and on a gimbal, where a force is no torque of one motor.
@@ -184,6 +191,7 @@ class Contact:
     touched_at_rest: bool | None = None
     drawn_J: float | None = None
     with_hand: bool = False
+    at_hands_pace: bool = False
     saturated_share: float | None = None
     impact_share: float | None = None
 
@@ -239,8 +247,8 @@ class Contact:
 
     @property
     def limit_cycle(self) -> float | None:
-        """Frequency of a limit cycle [Hz]: that of the swing, None where the handle moves with the hand."""
-        return None if self.with_hand else self.limit_cycle_Hz
+        """Frequency of a limit cycle [Hz]: that of the swing, None where the hand moves the handle as often."""
+        return None if self.with_hand or self.at_hands_pace else self.limit_cycle_Hz
 
     @property
     def saturated(self) -> float | None:

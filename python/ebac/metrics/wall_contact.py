@@ -22,6 +22,7 @@ from ebac.hands import is_own
 from ebac.metrics.contact_result import Contact
 from ebac.metrics.energy_drawn import drawn
 from ebac.metrics.ideal import allowed_deviation, ideal_rest, without_engine
+from ebac.metrics.with_hand import at_hands_pace, moves_with_hand
 from ebac.scenario import Environment
 from ebac.trace import Trace
 from ebac.trace.acting import of_drives, under_the_law
@@ -29,8 +30,8 @@ from ebac.trace.acting import of_drives, under_the_law
 #: A handle that met nothing for so long at the end of a run has left the surface [s]; a law that shakes meets the wall
 #: several times within it.
 LEFT_AFTER = 0.5
-#: So many times as often as its target may a handle turn round that follows its hand, and so many times more.
-OFTEN, MORE = 2, 2
+#: A handle that swings has left it if it met nothing for so many of its swings, where that is longer.
+SWINGS = 1.25
 #: The numbers of a contact, and what the core calls them.
 COLUMNS = {
     "rest_m": "rest",
@@ -143,8 +144,9 @@ def contact(trace: Trace, *, axis: int | None = None, truth: bool = True) -> Con
         with_hand=simulated
         and not known["still"]
         and all(moves_with_hand(trace, i) for i in judged),
+        at_hands_pace=at_hands_pace(trace, known["limit_cycle"], judged, target=simulated),
         saturated_share=_saturated(trace, axis),
-        **_touched(trace, axis),
+        **_touched(trace, axis, known["limit_cycle"]),
         **{column: known[name] for column, name in COLUMNS.items()},
         **{name: known[name] for name in FLAGS},
     )
@@ -175,39 +177,6 @@ def _known(environment: Environment) -> bool:
     return world is None or world.ideal() is not None
 
 
-def moves_with_hand(trace: Trace, axis: int = 0) -> bool:
-    """Return whether the handle follows the target of the scenario's hand in the tail, tremor apart.
-
-    A limit cycle goes to and fro farther than a hand that still moves, or more often; a hand that lands may bounce.
-    """
-    if trace.scenario is None:
-        return False
-    t, hand = trace["t"], trace.scenario.hand.replace(tremor_amplitude=0.0)
-    tail = t >= t[-1] - TAIL_SHARE * (t[-1] - t[0])
-    held = t[tail & (t < hand.release_at)]
-    if len(held) == 0:
-        return False
-    targets = np.array([[hand.target(now, i) for i in range(trace.axes)] for now in held])
-    x = trace.axis("true.x" if "true.x" in trace else "x", axis)[tail]
-    return _way(x) <= _way(targets) and _turns(x) <= OFTEN * _turns(targets[:, axis]) + MORE
-
-
-def _way(x: NDArray[np.float64]) -> float:
-    return float(np.abs(np.diff(x, axis=0)).sum())
-
-
-def _turns(x: NDArray[np.float64]) -> int:
-    """Return how often a motion turns round and goes back by more than `STILL_SWING`."""
-    turns, forward, farthest = 0, None, float(x[0])
-    for place in x.tolist():
-        if forward is not None and (place > farthest) == forward:
-            farthest = place
-        elif abs(place - farthest) > STILL_SWING:
-            turns += forward is not None
-            forward, farthest = place > farthest, place
-    return turns
-
-
 def _moves(trace: Trace) -> bool:
     """Return whether a surface of the virtual world moved while it was touched."""
     return "world_v" in trace and bool(trace["world_v"].any())
@@ -223,12 +192,13 @@ def _saturated(trace: Trace, axis: int) -> float | None:
     return float(np.mean(np.abs(trace.axis("f_cmd", axis)) > scenario.device.peak_force))
 
 
-def _touched(trace: Trace, axis: int) -> dict[str, bool]:
+def _touched(trace: Trace, axis: int, frequency: float | None) -> dict[str, bool]:
     """Return whether the virtual world ever acted, and whether it still did at the end."""
     if "f_env" not in trace:
         return {}
     acted, t = trace.axis("f_env", axis) != 0, trace["t"]
-    end = min(LEFT_AFTER, TAIL_SHARE * float(t[-1] - t[0]))
+    apart = max(LEFT_AFTER, SWINGS / frequency) if frequency else LEFT_AFTER
+    end = min(apart, TAIL_SHARE * float(t[-1] - t[0]))
     return {
         "touched": bool(acted.any()),
         "touched_at_rest": bool(acted[t >= t[-1] - end].any()),

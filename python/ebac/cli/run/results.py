@@ -122,13 +122,16 @@ class Result:
         """Measure a run; `changed` on its way, or with an engine, it has no simulation beside it."""
         from ebac.hardware import times, under_the_law
         from ebac.metrics import FEWEST_ROWS, contact, current_limits, observer_use
-        from ebac.metrics.wall_contact import moves_with_hand
+        from ebac.metrics.with_hand import at_hands_pace, moves_with_hand
 
         part = under_the_law(trace)
         measured = len(part) >= FEWEST_ROWS and fault is None
         met = contact(part) if measured else None
         if met is not None and simulated and not met.still:
-            met = replace(met, with_hand=moves_with_hand(part))
+            axes = range(part.axes)
+            pace = at_hands_pace(part, met.limit_cycle_Hz, axes, target=True)
+            follows = all(moves_with_hand(part, i) for i in axes)
+            met = replace(met, with_hand=follows, at_hands_pace=pace)
         whole = report.ended_by == "time" and not changed and process is None
         seconds = report.ticks * configuration.timing.dt
         return cls(
