@@ -456,10 +456,27 @@ def test_a_run_prints_its_results() -> None:
     assert "the reference device" in text
     assert len(text.splitlines()) < 20
     assert repr(run).startswith(
-        f"<Run of ebac: {'still' if run.still else 'swings'}, passive at the master's port"
+        f"<Run of ebac: {'still' if run.still else 'still moving'}, passive at the master's port"
     )
     assert "<img" in run._repr_html_()
     assert "rest [N]" in run._repr_html_()
+
+
+@pytest.mark.parametrize(
+    ("scheme", "seconds", "words"),
+    [
+        ("ebac", 3, "still moving"),
+        ("ebac", 4, "still moving"),
+        ("ebac", 10, "still"),
+        ("two-port-ebac", 3, "still moving"),
+        ("position-force", 3, "swings"),
+        ("position-force", 10, "swings"),
+    ],
+)
+def test_a_stick_that_is_on_its_way_does_not_swing(scheme: str, seconds: float, words: str) -> None:
+    run = teleop.simulate(scheme, there=Link(delay=0.1), seconds=seconds)
+    assert f": {words}, " in repr(run)
+    assert run.still_moving is (words == "still moving")
 
 
 def test_a_port_that_is_none_is_refused_and_not_another_one() -> None:

@@ -14,6 +14,8 @@ from ebac.trace import Trace
 OFTEN, MORE = 2, 2
 #: Share of its swing by which a handle goes back where it turns round: a hand that taps bounces by less.
 BACK = 0.1
+#: Share of the swing that a motion which comes to its end keeps in the second half of the tail, at most.
+ENDING = 0.6
 #: So many times as often as the hand's target swings a handle that it moves, at most.
 FASTER = 1.25
 #: A hand whose target is not known may swing so often of its own will [Hz]; the limit cycles of stiff walls are faster.
@@ -34,7 +36,18 @@ def moves_with_hand(trace: Trace, axis: int = 0) -> bool:
     _, targets = found
     x = _tail_of(trace, axis)
     back = max(STILL_SWING, BACK * float(np.ptp(x)))
-    return _way(x) <= _way(targets) and _turns(x, back) <= OFTEN * _turns(targets[:, axis]) + MORE
+    return _way(x) <= _way(targets) and turns(x, back) <= OFTEN * turns(targets[:, axis]) + MORE
+
+
+def on_its_way(x: NDArray[np.float64]) -> bool:
+    """Return whether a motion that is not still goes one way, or is about to end: its second half is the smaller.
+
+    Parameters
+    ----------
+    x : ndarray
+        Positions of the tail [m]; shape (rows,). A limit cycle swings as far in its second half.
+    """
+    return turns(x) == 0 or float(np.ptp(x[len(x) // 2 :])) < ENDING * float(np.ptp(x))
 
 
 def at_hands_pace(
@@ -107,7 +120,8 @@ def _way(x: NDArray[np.float64]) -> float:
     return float(np.abs(np.diff(x, axis=0)).sum())
 
 
-def _turns(x: NDArray[np.float64], back: float = STILL_SWING) -> int:
+def turns(x: NDArray[np.float64], back: float = STILL_SWING) -> int:
+    """Return how often a motion turns round and goes back by more than `back` [m]."""
     return len(_turning_points(x, back))
 
 

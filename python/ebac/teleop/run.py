@@ -15,6 +15,7 @@ from ebac._util.arguments import number, require, shown, unknown_name, whole
 from ebac.laws import AnyLaw, design, law_name
 from ebac.laws.making import compiled
 from ebac.laws.tuned_laws import on_its_observer
+from ebac.metrics.with_hand import on_its_way
 from ebac.scenario import Scenario
 from ebac.teleop import run_text
 from ebac.teleop.schemes import Scheme, chosen_scheme
@@ -88,6 +89,14 @@ class Run:
     def still(self) -> bool:
         """The stick swings by less than 0.25 mm."""
         return self.swing_m < STILL_SWING
+
+    @property
+    def still_moving(self) -> bool:
+        """The run ended before its stick: it goes one way over the tail, or swings by less in the tail's second half.
+
+        Less is under 60 % of the whole tail. A longer run shows whether it comes to rest.
+        """
+        return self.whole and not self.still and on_its_way(self.tail("true_x"))
 
     @property
     def least_master_J(self) -> float:  # noqa: N802

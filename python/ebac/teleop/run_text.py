@@ -69,9 +69,19 @@ def _contact(slave: SlaveModel) -> str:
 
 
 def verdict(run: Run) -> str:
-    """Return what a run came to: "still, passive at the master's port, not at both ports together"."""
-    moves = "still" if run.still else "swings" if run.whole else "ended early"
-    return f"{moves}, {PASSIVE[run.passive, run.two_port_passive]}"
+    """Return what a run came to: "still, passive at the master's port, not at both ports together".
+
+    A stick that is not still "swings", or is "still moving" where the run ended before its motion did.
+    """
+    return f"{_moves(run)}, {PASSIVE[run.passive, run.two_port_passive]}"
+
+
+def _moves(run: Run) -> str:
+    if run.still:
+        return "still"
+    if not run.whole:
+        return "ended early"
+    return "still moving" if run.still_moving else "swings"
 
 
 def one_line(run: Run) -> str:
