@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import asdict, dataclass
-from math import pi, sin
+from math import isnan, nan, pi, sin
 
 from ebac._core import Device, SlidingGimbal
 from ebac._util.arguments import require
@@ -20,7 +20,7 @@ def __dir__() -> list[str]:
 
 @dataclass(frozen=True, kw_only=True)
 class Spec:
-    """One line of a spec sheet, SI units."""
+    """One line of a spec sheet, SI units; `value` is nan where there is no such number, and `how` says why."""
 
     name: str
     value: float
@@ -36,7 +36,8 @@ class Spec:
     def __repr__(self) -> str:
         """Return "<Spec resolution: 3.068e-05 m, paper 3e-05 m>"."""
         paper = "" if self.paper is None else f", paper {self.paper:.4g} {self.unit}"
-        return f"<Spec {self.name}: {self.value:.4g} {self.unit}{paper}>"
+        value = "-" if isnan(self.value) else f"{self.value:.4g} {self.unit}"
+        return f"<Spec {self.name}: {value}{paper}>"
 
 
 def spec_sheet(device: Device) -> list[Spec]:
@@ -61,15 +62,15 @@ def spec_sheet(device: Device) -> list[Spec]:
              how="rated torque through capstan and lever",
              remark="holds at the handle only if the cable's sector is as large as the lever"),
         Spec(name="peak force", value=device.peak_force, unit="N", paper=42.4,
-             how=f"{drive.peak_ratio:g} times rated torque",
+             how=_limit_of_peak(device),
              remark="the ratio is chosen to give the paper's 42.4 N over 10.6 N: no check of it"),
         Spec(name="continuous current", value=motor.current(motor.rated_torque), unit="A", paper=1.0,
              how="rated torque over torque constant",
              remark="the paper rounds the motor's continuous current to 1 A"),
         Spec(name="peak current", value=drive.peak_current(motor), unit="A", paper=None,
-             how="peak torque over torque constant, at most the stall current"),
-        Spec(name="travel, chord", value=2 * radius * sin(limit), unit="m", paper=0.2,
-             how="2 R sin(limit)",
+             how="the stall current" if _stalls(device) else "peak torque over torque constant"),
+        Spec(name="travel, chord", value=2 * radius * sin(limit) if limit <= pi / 2 else nan, unit="m", paper=0.2,
+             how="2 R sin(limit)" if limit <= pi / 2 else _no_chord(limit),
              remark="the paper's 200 mm is the diameter of the sphere the handle moves on, not its reach"),
         Spec(name="travel, arc", value=2 * radius * limit, unit="m", paper=None, how="2 R limit"),
         Spec(name="joint range", value=2 * limit, unit="rad", paper=2 * pi / 6,
@@ -88,6 +89,33 @@ def spec_sheet(device: Device) -> list[Spec]:
              how="declared", remark="not given in the paper"),
         *_of_the_slide(device),
     ]  # fmt: skip
+
+
+def _stalls(device: Device) -> bool:
+    """Return whether the motor's stall current is below the peak current of the drive."""
+    motor = device.motor
+    return motor.current(device.drive.peak_ratio * motor.rated_torque) > motor.stall_current
+
+
+def _limit_of_peak(device: Device) -> str:
+    """Return what limits the peak force, and what to check where it is below the continuous force."""
+    motor, ratio = device.motor, f"{device.drive.peak_ratio:g} times rated torque"
+    if not _stalls(device):
+        return ratio
+    how = f"stall current of {motor.stall_current:g} A times torque constant, less than {ratio}"
+    if device.peak_force >= device.continuous_force:
+        return how
+    return (
+        f"{how} and less than the continuous force: one of rated_torque = {motor.rated_torque:g} N m, "
+        f"torque_constant = {motor.torque_constant:g} N m/A and stall_current is wrong; 1 mN m is 0.001 N m"
+    )
+
+
+def _no_chord(limit: float) -> str:
+    return (
+        f"none: a lever has a chord up to limit = pi/2 = 1.571 rad, and this is {limit:g} rad; limit is in rad, from "
+        "the middle to the stop (30 degrees are 0.5236 rad); a straight axis travels the arc"
+    )
 
 
 def _of_the_slide(device: Device) -> list[Spec]:

@@ -154,6 +154,31 @@ def test_spec_sheet_stands_beside_the_paper() -> None:
         }  # fmt: skip
 
 
+def test_the_spec_sheet_names_what_limits_the_peak() -> None:
+    def how(name: str, **motor: float) -> str:
+        device = ebac.Device(motor=ebac.Motor(**motor))
+        return next(spec.how for spec in ebac.spec_sheet(device) if spec.name == name)
+
+    assert how("peak force") == "4 times rated torque"
+    assert how("peak current") == "peak torque over torque constant"
+    stalled = how("peak force", stall_current=3.0)
+    assert stalled == "stall current of 3 A times torque constant, less than 4 times rated torque"
+    assert how("peak current", stall_current=3.0) == "the stall current"
+    mistyped = how("peak force", rated_torque=29.7)
+    assert "less than the continuous force: one of rated_torque = 29.7 N m" in mistyped
+
+
+def test_a_range_beyond_a_right_angle_has_no_chord() -> None:
+    def chord(limit: float) -> ebac.Spec:
+        device = ebac.Device(kinematics=ebac.Linear(limit=limit))
+        return next(spec for spec in ebac.spec_sheet(device) if spec.name == "travel, chord")
+
+    assert chord(np.pi / 2).value == pytest.approx(0.2)
+    assert np.isnan(chord(30).value)
+    assert "limit = pi/2 = 1.571 rad, and this is 30 rad; limit is in rad" in chord(30).how
+    assert repr(chord(30)) == "<Spec travel, chord: -, paper 0.2 m>"
+
+
 # --- kinematics ---
 
 kinematics = st.one_of(
