@@ -6,6 +6,7 @@ from dataclasses import asdict, dataclass
 from math import isnan, nan, pi, sin
 
 from ebac._core import Device, SlidingGimbal
+from ebac._util import formatting
 from ebac._util.arguments import require
 
 __all__ = [
@@ -40,6 +41,26 @@ class Spec:
         return f"<Spec {self.name}: {value}{paper}>"
 
 
+class _Sheet(list[Spec]):
+    """A spec sheet: a list that prints as a table."""
+
+    def __str__(self) -> str:
+        """Return one number with its unit a line, and how it comes about."""
+        rows = [(one.name, formatting.quantity(one.value, one.unit), one.how) for one in self]
+        name, value = (max((len(row[i]) for row in rows), default=0) for i in (0, 1))
+        return "\n".join(f"{row[0]:<{name}}  {row[1]:>{value}}  {row[2]}" for row in rows)
+
+    def _repr_html_(self) -> str:
+        """Return the same for a notebook."""
+        from ebac._util import notebook
+
+        rows = [
+            {"quantity": s.name, "value": formatting.quantity(s.value, s.unit), "how": s.how}
+            for s in self
+        ]
+        return notebook.result("Spec sheet", rows)
+
+
 def spec_sheet(device: Device) -> list[Spec]:
     """Compute the spec sheet of a device.
 
@@ -51,11 +72,12 @@ def spec_sheet(device: Device) -> list[Spec]:
     Returns
     -------
     list of Spec
+        `print` shows it as a table.
     """
     require(device, Device, "ebac.spec_sheet", "a Device")
     radius, limit = device.radius, device.kinematics.limit
     motor, drive, gravity = device.motor, device.drive, device.mechanics.gravity
-    return [
+    return _Sheet([
         Spec(name="resolution", value=device.count, unit="m", paper=0.03e-3,
              how="2 pi / counts per turn, through capstan and lever"),
         Spec(name="continuous force", value=device.continuous_force, unit="N", paper=10.6,
@@ -88,7 +110,7 @@ def spec_sheet(device: Device) -> list[Spec]:
         Spec(name="Coulomb friction", value=device.mechanics.coulomb, unit="N", paper=None,
              how="declared", remark="not given in the paper"),
         *_of_the_slide(device),
-    ]  # fmt: skip
+    ])  # fmt: skip
 
 
 def _stalls(device: Device) -> bool:

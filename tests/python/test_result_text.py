@@ -311,6 +311,35 @@ def test_arrays_and_texts_are_no_part_of_a_repr(tmp_path: Path) -> None:
         assert len(text) < 1500
 
 
+def test_a_spec_sheet_prints_as_a_table() -> None:
+    sheet = ebac.spec_sheet(ebac.Device())
+    lines = str(sheet).splitlines()
+    assert len(lines) == len(sheet)
+    assert lines[1].split("  ")[0] == "continuous force"
+    assert lines[1].endswith(" N  rated torque through capstan and lever")
+    assert "<Spec" not in str(sheet)
+    assert "<td" in sheet._repr_html_()  # type: ignore[attr-defined]
+
+
+def test_the_report_of_a_run_prints_in_words() -> None:
+    grants = [
+        ebac.realtime.Grant(name="memory", asked="all pages locked", granted=True, why="", remedy=""),
+        ebac.realtime.Grant(
+            name="priority", asked="SCHED_FIFO 80", granted=False, why="Operation not permitted", remedy="ulimit -r 80"
+        ),
+    ]  # fmt: skip
+    trace = ebac.simulate(SHORT, "ebac")
+    report = replace(
+        ebac.hardware.Report.of_virtual(trace, None, fault=False), grants=tuple(grants), drives=("ready",)
+    )  # fmt: skip
+    text = str(report)
+    assert text.startswith(f"Run of {len(trace):,} ticks, ended by time\n  log       none\n")
+    assert "  grant     memory: all pages locked, granted\n" in text
+    assert "priority: SCHED_FIFO 80, not granted (Operation not permitted); ulimit -r 80" in text
+    assert "object at 0x" not in text + repr(report)
+    assert repr(report).endswith("ended by time; no log; not granted: priority>")
+
+
 def test_numbers_and_flags_of_numpy_read_like_those_of_python() -> None:
     assert [cell("good", np.bool_(True)), cell("x_m", np.float64(0.5))] == ["True", "500.000"]
 

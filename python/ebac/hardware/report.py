@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, Self
 import numpy as np
 
 from ebac._core import Grant, LoopState, Running
+from ebac.hardware import report_text
 from ebac.trace import Trace
 
 if TYPE_CHECKING:
@@ -18,7 +19,7 @@ if TYPE_CHECKING:
     from ebac.logs import Recorder
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True, kw_only=True, repr=False)
 class Report:
     """Report of a run, in addition to its rows. SI units; the names contain the unit.
 
@@ -109,6 +110,14 @@ class Report:
             refused=0,
             lost_frames=0,
         )
+
+    def __repr__(self) -> str:
+        """Return how the run ended and what it left, in one line."""
+        return report_text.one_line(self)
+
+    def __str__(self) -> str:
+        """Return every part of it, one a line."""
+        return report_text.listed(self)
 
     def row(self) -> dict[str, Any]:
         """Return it as plain values."""
