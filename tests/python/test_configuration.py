@@ -145,7 +145,7 @@ def test_an_empty_one_is_the_paper_s_joystick() -> None:
         ("speed = 1\n", 1, "speed: stands in no table; write [limits] in a line above it"),
         ("interface = 'ebac'\n", 1, "interface: stands in no table; write [bus]"),
         ("bus = 3\n", 1, "bus = 3: must be a table"),
-        ("[device.kinematics]\ntype = 'Linear'\naxes = 1\n", None, "2 drives, the device 1 axes"),
+        ("[device.kinematics]\ntype = 'Linear'\naxes = 1\n", None, "2 drives, the device 1 axis"),
         (
             "[device.kinematics]\ntype = 'Linear'\n",
             None,

@@ -209,6 +209,6 @@ def simulate() -> Simulate:
 def test_a_scenario_gives_device_and_hand(simulate: Simulate, tmp_path: Path) -> None:
     file = tmp_path / "tapping.toml"
     ebac.Scenario(hand=ebac.Hand(path=ebac.Tapping())).save(file)
-    assert "nodes 1, on" in simulate("--scenario", str(file))
+    assert "drive, node 1, on" in simulate("--scenario", str(file))
     assert "nodes 1, 2, on" in simulate("--scenario", str(file), "--device", "joystick")
     assert "no such file" in simulate("--scenario", str(tmp_path / "not-there.toml"), code=2)

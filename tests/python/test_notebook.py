@@ -87,7 +87,7 @@ def test_a_sweep_without_a_point_of_rest_shows_its_table_alone() -> None:
 
 def test_a_sweep_has_one_table_below_its_title() -> None:
     html = ebac.sweep([SHORT], ["direct"])._repr_html_()
-    assert html.startswith("<p>SweepResult: 1 runs under direct, 1 done</p>")
+    assert html.startswith("<p>SweepResult: 1 run under direct, 1 done</p>")
 
 
 def test_a_contact_begins_as_its_text_does() -> None:

@@ -340,6 +340,19 @@ def test_the_report_of_a_run_prints_in_words() -> None:
     assert repr(report).endswith("ended by time; no log; not granted: priority>")
 
 
+def test_what_is_one_is_told_in_the_singular() -> None:
+    handle = ebac.hardware.Configuration.from_toml(
+        ebac.datasets.joystick_text("handle"), name="handle.toml"
+    )
+    assert ", node 1; " in repr(handle)
+    with pytest.raises(ValueError, match=r"1 or -1 for the one axis, such as \[-1\]"):
+        ebac.hardware.Configuration.from_toml(f"{handle.text}\n[signs]\nmotor = [1, 1]\n")
+    two = handle.text.replace('drives = "handle"', 'drives = "joystick"', 1)
+    with pytest.raises(ValueError, match="has 2 drives, the device 1 axis: must be as many"):
+        ebac.hardware.Configuration.from_toml(two)
+    assert repr(ebac.simulate(SHORT, "ebac")).endswith(", 1 axis>")
+
+
 def test_numbers_and_flags_of_numpy_read_like_those_of_python() -> None:
     assert [cell("good", np.bool_(True)), cell("x_m", np.float64(0.5))] == ["True", "500.000"]
 

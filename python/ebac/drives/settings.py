@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 
+from ebac._util.plural import plural
 from ebac.drives.objects import PDO_OFF, PDOS, Object, find
 from ebac.drives.pdo import Pdo
 from ebac.drives.profile import Profile
@@ -205,7 +206,10 @@ def _planned(pdo: Pdo, name: str, node: int) -> Iterator[Setting]:
         )
     entries = pdo.entries()
     yield Setting(
-        object=find(f"{name}_count"), value=len(entries), why=f"{len(entries)} objects", key=key
+        object=find(f"{name}_count"),
+        value=len(entries),
+        why=plural(len(entries), "object"),
+        key=key,
     )
     for i, entry in enumerate(entries, start=1):
         yield Setting(

@@ -7,6 +7,7 @@ from collections import defaultdict, deque
 from dataclasses import dataclass
 
 from ebac._core import SimulatedWire, TimedBus
+from ebac._util.plural import plural
 from ebac._util.wrong_calls import plain_constructor
 from ebac.drives.network import Network
 
@@ -68,7 +69,7 @@ class BusTiming:
         times = f"exchange {mean} us on average, {worst} us at worst, of {most} us"
         parts = [times, f"{self.late} of {self.ticks} ticks late, {self.missing} without an answer"]
         if self.errors:
-            parts.append(f"{self.errors} frames destroyed")
+            parts.append(f"{plural(self.errors, 'frame')} destroyed")
         parts += [f"error passive: {', '.join(self.passive)}"] * bool(self.passive)
         parts += [f"bus-off: {', '.join(self.off)}"] * bool(self.off)
         return f"{self.bitrate / 1000:g} kbit/s, load {100 * self.load:.0f} %: {'; '.join(parts)}"

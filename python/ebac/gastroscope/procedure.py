@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from ebac import _core
 from ebac._core import Device, Free, Hand, Master, Patient, Physician, Polyp, Scope, Step
+from ebac._util.plural import plural
 from ebac.gastroscope.lumen import Lumen
 from ebac.laws import AnyLaw, CoreLaw, design, law_name
 from ebac.laws.making import compiled
@@ -90,7 +91,7 @@ class Procedure:
         needed = 2 if self.master.insertion == 0 else 3
         if self.device is not None and self.device.axes < needed:
             raise ValueError(
-                f"Procedure.device: has {self.device.axes} axes, the mapping needs {needed}; "
+                f"Procedure.device: has {plural(self.device.axes, 'axis', 'axes')}, the mapping needs {needed}; "
                 "give another device, or Master(insertion=0) with pedals"
             )
 

@@ -311,7 +311,8 @@ class Configuration:
     def __repr__(self) -> str:
         """Return one line: name, bus, drives, law, timing."""
         nodes = ", ".join(str(node.id) for node in self.drives.nodes)
+        many = "" if len(self.drives.nodes) == 1 else "s"
         return (
-            f"<Configuration {self.name}: {self.interface} {self.channel}, nodes {nodes}; {law_name(self.law)}, "
+            f"<Configuration {self.name}: {self.interface} {self.channel}, node{many} {nodes}; {law_name(self.law)}, "
             f"{1e3 * self.timing.dt:g} ms, {self.seconds:g} s; its TOML in .text>"
         )

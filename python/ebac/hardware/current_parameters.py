@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, get_args
 from ebac._core import Recorded, Step, _World
 from ebac._util.arguments import require, whole
 from ebac._util.foreign_worlds import refuse_python
+from ebac._util.plural import plural
 from ebac.hardware.parameter_updates import Note, ParameterUpdates
 from ebac.hardware.world_place import check_stays_outside
 from ebac.scenario import Environment
@@ -82,9 +83,12 @@ class CurrentParameters:
         ticks = whole("hold_back", ticks)
         if isinstance(ticks, bool) or not 0 <= ticks <= MOST_HELD_BACK:
             raise ValueError(
-                f"hold_back = {ticks} samples: must lie in [0, {MOST_HELD_BACK}] samples"
+                f"hold_back = {plural(ticks, 'sample')}: must lie in [0, {MOST_HELD_BACK}] samples"
             )
-        note = Note(message=f"commands held back by {ticks} samples", values={"delay_ticks": ticks})
+        note = Note(
+            message=f"commands held back by {plural(ticks, 'sample')}",
+            values={"delay_ticks": ticks},
+        )
         self.updates.send("delay", lambda: self._running.hold_back(ticks), note)
         return ticks
 
@@ -170,7 +174,8 @@ def targets_after(
         )
     if not 1 <= len(target) <= axes:
         raise ValueError(
-            f"the target of the hand: {len(target)} numbers for {axes} axes: give 1 to {axes}, None for one that stays"
+            f"the target of the hand: {plural(len(target), 'number')} for {plural(axes, 'axis', 'axes')}: "
+            f"give {'1' if axes == 1 else f'1 to {axes}'}, None for one that stays"
         )
     for axis, one in enumerate(target):
         if one is None:

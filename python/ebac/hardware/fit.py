@@ -7,6 +7,7 @@ from typing import Any
 
 from ebac._core import Device
 from ebac._util.file_kinds import SCENARIO, kind_of
+from ebac._util.plural import plural
 from ebac.drives.toml_positions import Source
 from ebac.hardware.tables import refusing
 from ebac.hardware.world_place import never_reached
@@ -32,8 +33,8 @@ def check_fit(source: Source, values: Mapping[str, Any]) -> None:
     if len(drives.nodes) != axes:
         raise source.refuse(
             ("bus", "drives"),
-            f"bus.drives: {drives.name} has {len(drives.nodes)} drives, the device {axes} axes: must "
-            "be as many; give another network file, or a device with as many axes"
+            f"bus.drives: {drives.name} has {plural(len(drives.nodes), 'drive')}, the device "
+            f"{plural(axes, 'axis', 'axes')}: must be as many; give another network file, or a device with as many axes"
             + _maybe_scenario(source),
         )
     for node in drives.nodes:

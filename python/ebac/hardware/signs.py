@@ -35,8 +35,9 @@ class Signs:
             fits = isinstance(given, list) and len(given) == axes
             if not fits or any(type(one) is not int or one not in (1, -1) for one in given):
                 such = [-1] + [1] * (axes - 1)
+                each = "the one axis" if axes == 1 else f"each of the {axes} axes"
                 raise ValueError(
-                    f"signs.{name} = {given!r}: must be a list of 1 or -1 for each of the {axes} axes, such as {such}"
+                    f"signs.{name} = {given!r}: must be a list of 1 or -1 for {each}, such as {such}"
                 )
         return cls(**{name: tuple(given) for name, given in table.items()})
 

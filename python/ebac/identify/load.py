@@ -176,7 +176,10 @@ def _trace(path: Path) -> tuple[Trace | None, str, list[str]]:
         cut = "the log is not whole: its end is missing, as that of a run that was cut short"
         remarks = [] if log.condition.complete else [cut]
         remarks += filter(None, [log.condition.damage])
-        remarks += [f"{gap.rows} rows are missing after t = {gap.t:.4g} s" for gap in log.gaps]
+        remarks += [
+            f"{plural(gap.rows, 'row')} {'is' if gap.rows == 1 else 'are'} missing after t = {gap.t:.4g} s"
+            for gap in log.gaps
+        ]
         return log.trace, log.trace.origin, remarks
     if path.suffix != ".npz":
         return None, "simulated" if says_simulated(path) else "recorded", []

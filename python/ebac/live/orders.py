@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
+from ebac._util.plural import plural
 from ebac.live.session import Session
 
 
@@ -27,6 +28,6 @@ def carry_out(session: Session, message: dict[str, Any]) -> str:
         case "record":
             if message["on"]:
                 return f"recording to {session.record()}"
-            return f"{session.stop_recording():,} rows recorded"
+            return f"{plural(session.stop_recording(), 'row')} recorded"
         case _:
             return f"scenario saved as {session.save()}"

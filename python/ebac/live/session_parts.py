@@ -6,6 +6,7 @@ from collections.abc import Callable
 from typing import Any
 
 from ebac._core import Fault
+from ebac._util.plural import plural
 from ebac.hardware import Configuration, OpenDevice, Run
 from ebac.hardware.current_parameters import MOST_HELD_BACK
 from ebac.hardware.law import designed
@@ -52,8 +53,8 @@ class SessionParts:
         delay, least = self.choices.delay, known.timing.delay
         if not least <= delay <= least + MOST_HELD_BACK:
             raise ValueError(
-                f"delay = {delay} samples: must lie in [{least}, {least + MOST_HELD_BACK}] samples; drives and bus "
-                f"take {least}, and at most {MOST_HELD_BACK} are added to them"
+                f"delay = {plural(delay, 'sample')}: must lie in [{least}, {least + MOST_HELD_BACK}] samples; drives "
+                f"and bus take {least}, and at most {MOST_HELD_BACK} are added to them"
             )
         if not (self._lent or self.virtual):  # a machine may be late
             known = patient(known, pause=0.5)

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
+from ebac._util.plural import plural
 from ebac.logs.about import About
 from ebac.logs.events import Event
 from ebac.logs.records import Condition
@@ -90,6 +91,4 @@ class Log:
 
     def __repr__(self) -> str:
         """Return one line: file, rows, events, condition."""
-        return (
-            f"<Log {self.path.name}: {self.trace!r}, {len(self.events)} events; {self.condition}>"
-        )
+        return f"<Log {self.path.name}: {self.trace!r}, {plural(len(self.events), 'event')}; {self.condition}>"

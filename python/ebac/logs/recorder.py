@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING, Any, Self
 import numpy as np
 from numpy.typing import NDArray
 
+from ebac._util.plural import plural
 from ebac._util.wrong_calls import plain_constructor
 from ebac.logs.about import About
 from ebac.logs.events import Event, faults_of
@@ -206,8 +207,8 @@ class Recorder:
             ) from self.error
         if self.lost:
             warnings.warn(
-                f"{self.path}: {self.lost} rows were lost, the recorder came too late; "
-                "the log contains where. Give the loop a longer ring",
+                f"{self.path}: {plural(self.lost, 'row')} {'was' if self.lost == 1 else 'were'} lost, the recorder "
+                "came too late; the log contains where. Give the loop a longer ring",
                 stacklevel=2,
             )
 
@@ -259,7 +260,10 @@ class Recorder:
         tick, t, _ = self._last
         if len(data["t"]):
             tick, t = int(data["tick"][0]), float(data["t"][0])
-        message = f"{rows} rows before tick {tick} were written over before they were recorded"
+        were, they = ("was", "it was") if rows == 1 else ("were", "they were")
+        message = (
+            f"{plural(rows, 'row')} before tick {tick} {were} written over before {they} recorded"
+        )
         return Event(kind="lost", message=message, tick=tick, t=t, values={"rows": rows})
 
     def _at_exit(self) -> None:
@@ -282,7 +286,9 @@ class Recorder:
     def __repr__(self) -> str:
         """Return file, rows written and lost."""
         state = "closed" if self._ends.is_set() else "recording"
-        return f"<Recorder of {self.path}: {state}, {self.written} rows, {self.lost} lost>"
+        return (
+            f"<Recorder of {self.path}: {state}, {plural(self.written, 'row')}, {self.lost} lost>"
+        )
 
 
 def _nothing() -> Sequence[Event]:

@@ -12,6 +12,7 @@ from matplotlib.axes import Axes
 from matplotlib.patches import Patch, Rectangle
 
 from ebac._util import formatting
+from ebac._util.plural import plural
 from ebac.plot.style import BETTER, SAME, WORSE, Picture, figure_legend, new_figure
 
 if TYPE_CHECKING:
@@ -49,7 +50,7 @@ def _draw(found: Ablation, abreast: int) -> Picture:
         _band(ax, found, band, abreast)
     hands = len(found.study.operators)
     figure.suptitle(
-        f"Ablation of {found.law}, simulated with {hands} hands: each row is one change of the law\n"
+        f"Ablation of {found.law}, simulated with {plural(hands, 'hand')}: each row is one change of the law\n"
         f"{found.study.conditions[0].summary}, where a heading has no other",
         fontsize="medium",
     )

@@ -17,6 +17,7 @@ from matplotlib.ticker import FuncFormatter
 from numpy.typing import NDArray
 
 from ebac._util import descriptions
+from ebac._util.plural import plural
 from ebac.metrics import STILL_SWING
 from ebac.plot.style import Picture, colours, figure_legend, new_figure
 
@@ -106,8 +107,9 @@ def _scatter(study: Study, conditions: list[str], *, narrow: bool) -> Picture:
         if place + columns >= len(panels):
             ax.set_xlabel("swing, peak to peak [mm]")
             ax.tick_params(labelbottom=True)
+    comes = "comes" if len(study.operators) == 1 else "come"
     figure.suptitle(
-        f"How {len(study.operators)} hands come to rest, simulated: {_setting(study, conditions)}",
+        f"How {plural(len(study.operators), 'hand')} {comes} to rest, simulated: {_setting(study, conditions)}",
         fontsize="medium",
     )
     _explain(figure, _summaries(study, conditions))
@@ -242,7 +244,7 @@ def _overview(study: Study, *, narrow: bool) -> Picture:
     _table(right, drawn, log, _energy, stacked=stacked)
     right.set_title("most energy drawn in any window", fontsize="medium")
     figure.suptitle(
-        f"Study, simulated with {len(study.operators)} hands\n"
+        f"Study, simulated with {plural(len(study.operators), 'hand')}\n"
         f"{descriptions.describe(study.scenarios[0]).split('; ')[0]}, changed as each condition says",
         fontsize="medium",
     )

@@ -10,6 +10,7 @@ from textwrap import shorten
 from typing import Any
 
 from ebac._core import Device, Timing
+from ebac._util.plural import plural
 from ebac.laws import AnyLaw, changed, design, law_name
 from ebac.laws.protocols import is_core_law
 from ebac.laws.variant import shown_value
@@ -144,7 +145,8 @@ class Ablation:
             }
             for row in self.rows
         ]
-        title = f"Ablation of {self.law}, simulated: {len(self.study.operators)} hands; beside the law as it is"
+        hands = plural(len(self.study.operators), "hand")
+        title = f"Ablation of {self.law}, simulated: {hands}; beside the law as it is"
         return report(title, rows)
 
     def _repr_html_(self) -> str:

@@ -213,8 +213,9 @@ class Study:
     def _repr_html_(self) -> str:
         """Return the first figure and the rows, for a notebook."""
         from ebac._util import notebook
+        from ebac._util.plural import plural
 
-        title = f"{len(self.operators)} hands, simulated"
+        title = f"{plural(len(self.operators), 'hand')}, simulated"
         return notebook.result(title, self._table(), self.plot)
 
     def _table(self) -> list[dict[str, Any]]:

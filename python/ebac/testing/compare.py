@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ebac._util import formatting
+from ebac._util.plural import plural
 from ebac.testing.tolerance import Tolerance, default_tolerance
 from ebac.trace import Trace
 
@@ -186,5 +187,4 @@ def _shown(value: float, unit: str) -> str:
 def _shape(trace: Trace) -> str:
     t = trace["t"]
     span = f" from {t[0]:.6g} to {t[-1]:.6g} s" if len(t) else ""
-    axes = "1 axis" if trace.axes == 1 else f"{trace.axes} axes"
-    return f"{len(trace)} rows{span} on {axes}"
+    return f"{len(trace)} rows{span} on {plural(trace.axes, 'axis', 'axes')}"

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from ebac import _core
 from ebac._util.arguments import unknown_name, whole
 from ebac._util.need import need
+from ebac._util.plural import plural
 from ebac.scenario import Scenario
 from ebac.trace.columns import MEANT, ColumnInfo, column_infos, row_views
 from ebac.trace.time_slice import rows_between
@@ -337,7 +338,7 @@ class Trace:
         """Return one line: law, rows, time, axes."""
         t = self._data["t"]
         span = f"{t[0]:.6g} to {t[-1]:.6g} s" if len(t) else "empty"
-        axes = "1 axis" if self.axes == 1 else f"{self.axes} axes"
+        axes = plural(self.axes, "axis", "axes")
         return f"<Trace of {self.law or 'a run'}: {len(self)} rows, {span}, {axes}>"
 
     def _repr_html_(self) -> str:

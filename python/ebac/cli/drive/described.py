@@ -108,7 +108,8 @@ def by_options(
     axes = plant.device.axes
     if zero and len(zero) != axes:
         raise ValueError(
-            f"--zero: {output.plural(len(zero), 'number')} for {axes} axes; give it once for each axis"
+            f"--zero: {output.plural(len(zero), 'number')} for {output.plural(axes, 'axis', 'axes')}; give it once for "
+            "each axis"
         )
     per_force, per_torque = counts or (1e6, 1e6)
     if not (1 <= per_force <= MOST_COUNTS and 1 <= per_torque <= MOST_COUNTS):
@@ -117,7 +118,9 @@ def by_options(
         )
     nodes = [(first or 1) + axis for axis in range(axes)]
     if nodes[-1] > 127:
-        raise ValueError(f"--first = {first}: must lie in [1, {128 - axes}] for {axes} drives")
+        raise ValueError(
+            f"--first = {first}: must lie in [1, {128 - axes}] for {output.plural(axes, 'drive')}"
+        )
     sheet = None if eds is None else read_eds(eds)
     own = {
         "nodes": nodes,

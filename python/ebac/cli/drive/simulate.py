@@ -194,8 +194,11 @@ def simulate(
         ):
             also = "" if at is None else f" and a force sensor at {at.host}:{at.port}"
             named = ", ".join(str(node) for node in ids)
+            one = len(ids) == 1
+            what = "Simulated drive, node" if one else "Simulated drives, nodes"
+            them = "it" if one and at is None else "them"
             typer.echo(  # one line, for whoever waits for it
-                f"Simulated drives, nodes {named}, on {interface} {channel}{also}. Ctrl-C stops them."
+                f"{what} {named}, on {interface} {channel}{also}. Ctrl-C stops {them}."
             )
             for line in found.about:
                 output.say(line)
@@ -212,7 +215,9 @@ def simulate(
         counts = work.counts
     refused = f", {counts.refused} refused by the bus" if counts.refused else ""
     lost = f", {counts.lost} lost before they were read" if counts.lost else ""
-    output.say(f"Stopped: {counts.received} frames received, {counts.sent} sent{refused}{lost}.")
+    output.say(
+        f"Stopped: {output.plural(counts.received, 'frame')} received, {counts.sent} sent{refused}{lost}."
+    )
 
 
 @contextmanager

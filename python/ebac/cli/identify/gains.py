@@ -258,7 +258,9 @@ def _notes(result: GainsResult, file: Path | None) -> list[str]:
     ]
     return [
         *(nothing if len(costs) == 1 else []),
-        f"{len(result.hands)} hands, {len(result.chosen.presses.goals)} presses, {len(result.tried)} pairs of gains. "
+        f"{output.plural(len(result.hands), 'hand')}, "
+        f"{output.plural(len(result.chosen.presses.goals), 'press', 'presses')}, "
+        f"{output.plural(len(result.tried), 'pair')} of gains. "
         "Relative to the default gains, geometric mean over the presses: "
         + ", ".join(f"{name} {value:.3f}" for name, value in result.chosen.ratios.items())
         + ".",

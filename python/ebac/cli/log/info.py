@@ -84,7 +84,13 @@ def show(read: Log, *, meanings: bool = False) -> None:
         grid.add_row(name, _escaped(text))
     output.show(grid)
     output.console().print(_columns(read.trace, meanings=meanings))
-    _list("Gaps", [f"{g.rows} rows after tick {g.after_tick}, {g.t:.3f} s" for g in read.gaps])
+    _list(
+        "Gaps",
+        [
+            f"{output.plural(g.rows, 'row')} after tick {g.after_tick}, {g.t:.3f} s"
+            for g in read.gaps
+        ],
+    )
     _list(
         "Faults",
         [f"{n} ({fault_name(n)}) in tick {tick}, {t:.3f} s" for n, t, tick in read.faults],

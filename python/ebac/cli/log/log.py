@@ -123,7 +123,9 @@ def export(
         typer.echo(output.document("log export", [row], **log_info.condition(read)))
     else:
         output.path(out)
-        output.say(f"{output.plural(len(trace), 'row')}, {len(list(trace))} columns.")
+        output.say(
+            f"{output.plural(len(trace), 'row')}, {output.plural(len(list(trace)), 'column')}."
+        )
     _report(read, quiet=as_json)
 
 

@@ -130,7 +130,9 @@ def _tell_end(device: OpenDevice, as_json: bool) -> None:
         return
     console = output.console(stderr=as_json)
     states = ", ".join(report.drives) or "not known"
-    kept = "" if report.log is None else f"; {report.recorded:,} rows in {report.log}"
+    kept = (
+        "" if report.log is None else f"; {output.plural(report.recorded, 'row')} in {report.log}"
+    )
     console.print(
         f"Ended by {report.ended_by}. Drives after it: {states}{kept}.",
         soft_wrap=True,

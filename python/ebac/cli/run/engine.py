@@ -150,8 +150,8 @@ class Served:
         faded = "" if self.faded_at_s is None else f", faded for {self.faded_s:.2f} s"
         ended = f" It did not last: {self.trouble}." if self.trouble else ""
         return (
-            f"Engine: {self.command}: {self.models:,} models, {self.rate_Hz:,.0f} a second; oldest rendered "
-            f"{1e3 * self.oldest_s:.1f} ms{faded}; updates can have given {1e3 * self.given_J:.3g} mJ.{ended}"
+            f"Engine: {self.command}: {output.plural(self.models, 'model')}, {self.rate_Hz:,.0f} a second; oldest "
+            f"rendered {1e3 * self.oldest_s:.1f} ms{faded}; updates can have given {1e3 * self.given_J:.3g} mJ.{ended}"
         )
 
 

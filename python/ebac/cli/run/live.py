@@ -102,9 +102,10 @@ def lines(configuration: Configuration, run: Run, tail: Trace) -> list[str]:
     shown = [
         f"{state}, {t:.1f} s of {configuration.seconds:g} s, law {run.law.name}"
         + (f", [bold red]fault: {fault.name.lower().replace('_', ' ')}[/]" if fault else ""),
-        f"lateness p50 {late[0]:.0f} µs, p99.9 {late[1]:.0f} µs, {int(tail['skipped'].sum())} ticks skipped "
-        f"in the last {_BACK:g} s",
-        f"bus: {int(tail['bus.missing'].max())} answers missing, {int(tail['bus.refused'].max())} frames refused",
+        f"lateness p50 {late[0]:.0f} µs, p99.9 {late[1]:.0f} µs, "
+        f"{output.plural(int(tail['skipped'].sum()), 'tick')} skipped in the last {_BACK:g} s",
+        f"bus: {output.plural(int(tail['bus.missing'].max()), 'answer')} missing, "
+        f"{output.plural(int(tail['bus.refused'].max()), 'frame')} refused",
     ]
     if t > configuration.seconds - _SOON or state == "stop":
         shown.insert(0, "[bold yellow]the run ends: release the handle, every force fades[/]")
@@ -114,7 +115,7 @@ def lines(configuration: Configuration, run: Run, tail: Trace) -> list[str]:
     if run.recorder is not None:
         lost = run.recorder.lost
         shown.append(
-            f"log: {run.recorder.written:,} rows"
+            f"log: {output.plural(run.recorder.written, 'row')}"
             + (f", [bold red]{lost:,} lost[/]" if lost else ", none lost")
         )
     return shown

@@ -245,7 +245,9 @@ def show(result: Result) -> None:
         if report.log is None
         else f"{report.recorded:,} recorded, {report.lost_rows:,} lost"
     )
-    output.say(f"{report.ticks:,} ticks, {kept}; ended by {report.ended_by}; on {result.place}.")
+    output.say(
+        f"{output.plural(report.ticks, 'tick')}, {kept}; ended by {report.ended_by}; on {result.place}."
+    )
     if result.virtual:
         output.say(
             "Everything was simulated, on a virtual clock: every tick in time.", style="bold"

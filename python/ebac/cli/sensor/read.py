@@ -82,8 +82,9 @@ def read(
         typer.echo(output.document("sensor read", rows, **more))
     else:
         output.say(
-            f"{counts.received:,} records in {lasted:.1f} s; {counts.lost:,} lost, {counts.late:,} late, "
-            f"{counts.duplicate:,} doubled, {counts.malformed:,} malformed, {counts.foreign:,} foreign."
+            f"{output.plural(counts.received, 'record')} in {lasted:.1f} s; {counts.lost:,} lost, "
+            f"{counts.late:,} late, {counts.duplicate:,} doubled, {counts.malformed:,} malformed, "
+            f"{counts.foreign:,} foreign."
         )
 
 
@@ -137,7 +138,7 @@ def _picture(config: SensorConfig, sensor: Sensor, row: dict[str, Any]) -> Rende
         ),
         Text(f"the sensor is {health}", style="" if good else "bold red"),
         Text(
-            f"{row['received']:,} records, {row['lost']:,} lost",
+            f"{output.plural(row['received'], 'record')}, {row['lost']:,} lost",
             style="" if not row["lost"] else "yellow",
         ),
     ]

@@ -107,7 +107,8 @@ def simulate(
             pass
     counts = work.counts
     output.say(
-        f"Stopped: {counts.requests} requests obeyed, {counts.refused} refused, {counts.sent:,} packets sent, "
+        f"Stopped: {output.plural(counts.requests, 'request')} obeyed, {counts.refused} refused, "
+        f"{output.plural(counts.sent, 'packet')} sent, "
         f"{counts.dropped:,} dropped."
     )
 

@@ -135,8 +135,8 @@ def _show(found: Ablation) -> None:
         _tell(piece, row, found)
     hands = len(found.study.operators)
     output.say(
-        f"Simulated, not measured; {hands} hands. Red, in the figure orange: worse than {found.law} as "
-        "it is; green, in the figure blue: better.",
+        f"Simulated, not measured; {output.plural(hands, 'hand')}. Red, in the figure orange: worse than {found.law} "
+        "as it is; green, in the figure blue: better.",
         style="bold",
     )
 

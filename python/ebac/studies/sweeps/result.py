@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from ebac._util.arguments import unknown_name
 from ebac._util.need import need
+from ebac._util.plural import plural
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -131,4 +132,6 @@ class SweepResult:
 
     def _title(self) -> str:
         laws = ", ".join(dict.fromkeys(self["law"].tolist()))
-        return f"SweepResult: {len(self)} runs under {laws}, {int(self['done'].sum())} done"
+        return (
+            f"SweepResult: {plural(len(self), 'run')} under {laws}, {int(self['done'].sum())} done"
+        )
