@@ -67,7 +67,7 @@ def at_hands_pace(
         Whether the target of the hand is known, which is that of the scenario: then the swing is the hand's up to 1.25
         times the frequency of the target in the tail. In a recording it is not known: there it may be the hand's up to
         3 Hz, where the virtual world does not act in a fifth of the tail or more. A law that shakes on a stiff wall
-        does so at 5 Hz or faster; one that throws out a soft hand as slowly as the hand taps is not told apart.
+        does so at 5 Hz or faster; one that throws out a soft hand as slowly as a hand taps looks the same.
     """
     if frequency is None:
         return False
