@@ -3800,6 +3800,7 @@ class ReplayLog:
         f_cmd: typing.Annotated[numpy.typing.ArrayLike, numpy.float64],
         current: typing.Annotated[numpy.typing.ArrayLike, numpy.float64],
         gain: typing.Annotated[numpy.typing.ArrayLike, numpy.float64],
+        came: typing.Annotated[numpy.typing.ArrayLike, numpy.float64],
     ) -> None: ...
     def __len__(self) -> int: ...
     @property
@@ -9491,6 +9492,14 @@ def _measure_contact(
     clamped: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None,
     pull: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None,
     wall: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None,
+    others: collections.abc.Sequence[
+        tuple[
+            typing.Annotated[numpy.typing.ArrayLike, numpy.float64],
+            typing.Annotated[numpy.typing.ArrayLike, numpy.float64],
+            typing.Annotated[numpy.typing.ArrayLike, numpy.float64],
+            typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None,
+        ]
+    ] = ...,
 ) -> dict[str, typing.Any]: ...
 def _measure_jitter(
     dt: typing.SupportsFloat | typing.SupportsIndex,
