@@ -34,8 +34,8 @@ def _of_the_design(made: re.Match[str], facts: DeviceFacts, timing: Timing) -> s
     law, name, value, unit, must = made.groups()
     return (
         f"Timing.dt = {timing.dt:g} s ({1 / timing.dt:.4g} Hz): for it, {plural(timing.delay, 'sample')} of delay and "
-        f"a device of {facts.mass:.3g} kg the design of {law} gives {name} = {float(value):.4g}{unit or ''}, which {must}; give "
-        f"another dt or mass, {name} itself, or another law"
+        f"a device of {facts.mass:.3g} kg the design of {law} gives {name} = {float(value):.4g}{unit or ''}, which "
+        f"{must}; give another dt or mass, {name} itself, or another law"
     )
 
 
