@@ -14,7 +14,8 @@ from typer.testing import CliRunner
 import ebac
 from ebac import identify
 from ebac.cli import app
-from ebac.cli.identify.gains import _tell_other_device
+from ebac.cli.identify.gains import _parts, _tell_other_device
+from ebac.hardware import Configuration
 from ebac.identify import Limits, Recording, Target, fit_gains, fit_loop
 from ebac.identify.figures import plot_gains
 from ebac.identify.gains.check import MEASURES, check_gains
@@ -343,6 +344,16 @@ def test_the_command_writes_a_report_and_json(
     assert document["rows"][-1]["broken"] == []
     assert (out / "gains.html").read_text().count("data:image/png") == 1
     assert (out / "gains.png").stat().st_size > 10_000
+
+
+def test_device_wall_and_delay_may_be_those_of_a_configuration(tmp_path: Path) -> None:
+    file = tmp_path / "joystick.toml"
+    file.write_text(ebac.datasets.joystick_text(), encoding="utf-8")
+    device, wall, delay = _parts(file)
+    known = Configuration.load(file)
+    assert device is not None
+    assert device.mass == known.device.mass
+    assert (wall, delay) == (known.environment, known.timing.delay)
 
 
 def test_a_log_of_another_device_than_that_of_the_file_is_noted(
