@@ -194,7 +194,7 @@ def test_info_tells_what_is_in_a_log(recorded: Path) -> None:
     by_name = {row["column"]: row for row in told["rows"]}
     assert (by_name["x"]["unit"], by_name["x"]["type"]) == ("m", "float64")
     shown = invoke("info", recorded)
-    for words in ("complete", "200", "1 missing", "2020-09-13 12:26:40 UTC", "1 rows after tick 99",
+    for words in ("complete", "200", "1 missing", "2020-09-13 12:26:40 UTC", "1 row after tick 99",
                   "damping raised"):  # fmt: skip
         assert words in shown, words
     assert "fault 0 (none) 0 (none)" in shown
