@@ -40,10 +40,10 @@ CORE = (
 OWN = ("settings", "catalogue", "exports")
 #: As the core is compiled elsewhere: the bits are the same where the libraries' functions are.
 FLAGS = (
-    *("-target", "wasm32-wasi", "-mexec-model=reactor", "-std=c++20", "-O2", "-DNDEBUG"),
-    *("-ffp-contract=off", "-fno-math-errno", "-fvisibility=hidden", "-w", "-s"),
-    *("-Wl,--gc-sections", "-Wl,--export=__stack_pointer"),
+    *("-target", "wasm32-wasi", "-std=c++20", "-O2", "-DNDEBUG"),
+    *("-ffp-contract=off", "-fno-math-errno", "-fvisibility=hidden", "-w"),
 )
+LINKED = ("-mexec-model=reactor", "-s", "-Wl,--gc-sections", "-Wl,--export=__stack_pointer")
 
 
 def contents(files: Iterable[Path]) -> dict[str, str]:
@@ -86,7 +86,7 @@ def build(out: Path) -> dict[str, str]:
         words = used.read_text(encoding="utf-8").replace("\\\n", " ").split()
         included = {Path(word).resolve() for word in words[1:]} - {unit.resolve()}
         made_of = contents([*included, throw, Path(__file__)])
-        subprocess.run([*command, str(unit), str(throw), "-o", str(made)], check=True)
+        subprocess.run([*command, *LINKED, str(unit), str(throw), "-o", str(made)], check=True)
         out.write_bytes(made.read_bytes())
     return made_of
 
