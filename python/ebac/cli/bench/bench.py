@@ -79,7 +79,7 @@ def bench(
 
     A tick includes plant, encoder, kinematics, wall, law, energy account, motor and one row of the log, for one axis
     on one core, in C++. The last row of the table is a law written in Python, in the same loop. With `--law` only those
-    laws are timed, also [laws of your own](docs/how-to/write_a_law.md).
+    laws are timed, also laws of your own.
 
     **Examples**
 
