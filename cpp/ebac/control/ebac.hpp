@@ -68,7 +68,8 @@ class Ebac {
   /// while it lasts.
   void begin_account() EBAC_RT { shared_.ledger.begin(stored()); }
   /// Of what this contact stores, `part` has come in this tick with no motion, as another world takes over or the force
-  /// comes in; below zero where it stored more before. At the end, when `in_all` has come, that much of what the account lacks is owed.
+  /// comes in; below zero where it stored more before. At the end, when `in_all` has come, that much of what the account
+  /// lacks is owed.
   void store(double part, double in_all) EBAC_RT {
     shared_.ledger.store(part * stored());
     if (in_all > 0) shared_.ledger.owe(stored(), in_all * stored());

@@ -159,7 +159,8 @@ class Loop {
     updates.apply(sample_.tick, law_, chain_, device_, axes_in_use(sample_), sample_.t);
   }
 
-  /// What a contact stores by a soft start no motion has paid for. Nor is this a part of the one function.
+  /// Tells the law what its contacts store by a soft start, which no motion has paid for. Not part of the tick's one
+  /// function: it is seldom called.
   [[gnu::noinline]] void come_in() EBAC_RT {
     if constexpr (requires { law_.come_in(0.0, true); }) {
       law_.come_in(came(), gain() >= 1);
