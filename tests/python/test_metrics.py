@@ -11,8 +11,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from numpy.typing import NDArray
+from typer.testing import CliRunner
 
 import ebac
+from ebac.cli import app
 from ebac.metrics.with_hand import moves_with_hand
 
 
@@ -168,6 +170,17 @@ def test_an_axis_that_swings_is_judged_whichever_it_is() -> None:
         swings.append(found.swing_m)
     assert swings[0] == pytest.approx(swings[1], rel=0.1)
     assert swings[0] > 10e-3
+
+
+def test_the_command_says_what_it_shows_of_several_axes(tmp_path: Path) -> None:
+    device = ebac.Device(kinematics=ebac.Linear(axes=2))
+    file = tmp_path / "two.toml"
+    ebac.Scenario(device=device, seconds=1.0).save(file)
+    done = CliRunner().invoke(app, ["wall", "--scenario", str(file), "--law", "direct"])
+    assert done.exit_code == 0, done.output
+    assert "Of the 2 axes: rest and deepest are those of the first" in " ".join(done.output.split())
+    alone = CliRunner().invoke(app, ["wall", "--law", "direct", "--seconds", "1"])
+    assert "axes" not in alone.output
 
 
 def test_an_axis_in_free_air_may_move() -> None:

@@ -158,6 +158,11 @@ def show(
         output.say(f"Not judged exact, there is no ideal rest: {why}.")
     elif weak := weak_motor.sentence(scenario):
         output.say(weak)
+    if scenario.device.axes > 1:
+        output.say(
+            f"Of the {scenario.device.axes} axes: rest and deepest are those of the first, which the figure shows; "
+            "swings, settling times, jumps and vibration are the worst of all on which the world acts."
+        )
     for first in range(0, len(bodies or []), LAWS_ABREAST):
         part = slice(first, first + LAWS_ABREAST)
         laws = [contact.law for contact in contacts[part]]
