@@ -223,6 +223,7 @@ def test_a_loop_without_python_refuses_a_law_in_python_by_its_name(command: str)
     assert not list(Path().glob("ebac-*"))
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(sys.platform != "linux", reason="loops in real time need Linux")
 @pytest.mark.real_time
 def test_a_compiled_law_runs_the_joystick_of_a_gastroscopy_on_drives() -> None:

@@ -252,6 +252,7 @@ def test_enable_warns_powers_at_zero_torque_and_disable_ends_it(drive: Run) -> N
     assert rows == [{"node": n, "state": "switch on disabled"} for n in (1, 2)]
 
 
+@pytest.mark.slow
 def test_one_drive_in_fault_leaves_none_powered(
     drive: Run, open_bus: Callable[[], can.BusABC]
 ) -> None:

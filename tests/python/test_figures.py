@@ -99,6 +99,7 @@ def test_walls_fit_any_column(laws: tuple[str, ...], width: str | None, run: Run
     check_inside(figure, None if width is None else millimetres(width) / 25.4)
 
 
+@pytest.mark.slow(every=True)
 @pytest.mark.parametrize("laws", [("tca", "tca", "eba", "ebac"), ("ebac",)])
 def test_walls_fill_one_column_where_there_is_beta_and_friction(
     laws: tuple[str, ...], run: Run

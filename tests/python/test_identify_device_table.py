@@ -110,6 +110,7 @@ def test_laws_are_designed_for_the_device_of_a_configuration(tmp_path: Path) -> 
     assert "run.toml at 2 kHz" in run.stdout
 
 
+@pytest.mark.slow
 def test_a_lag_that_a_csv_file_does_not_say_is_named(tmp_path: Path) -> None:
     """The log of a run that was exported determined less, without a hint."""
     trace = moved(ebac.Device(mechanics=ebac.Mechanics(coulomb=0.4)))

@@ -208,6 +208,7 @@ def pushed(seconds: float = 8.0) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     return t, 1e-5 * np.floor((size * np.sin(w * t)).sum(0) / 1e-5), force
 
 
+@pytest.mark.slow
 def test_a_motor_of_the_other_sign_is_an_error_that_names_the_option(tmp_path: Path) -> None:
     """As a drive's log has it: the motor's force drives to +x."""
     t, x, force = pushed()

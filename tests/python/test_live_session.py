@@ -47,6 +47,7 @@ def in_contact(session: Session) -> bool:
     return len(tail) == 300 and bool(np.abs(tail.axis("f_env", 0)).min() > 5)
 
 
+@pytest.mark.slow
 def test_law_world_and_delay_change_while_the_loop_runs(session: Session) -> None:
     session.change(observer=False)
     session.start()

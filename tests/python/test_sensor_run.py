@@ -38,7 +38,7 @@ def desk(
         yield made
 
 
-@pytest.mark.parametrize("law", ["tca", "ebac"])
+@pytest.mark.parametrize("law", [pytest.param("tca", marks=pytest.mark.slow), "ebac"])
 def test_the_force_that_is_felt_comes_back_over_the_network(desk: Desk, law: str) -> None:
     device, sensor = desk
     wall = ebac.Wall(stiffness=2e3, position=0.01)  # soft enough for either law

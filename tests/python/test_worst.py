@@ -150,6 +150,7 @@ def test_a_hand_that_pulls_too_hard_does_not_count() -> None:
     assert free.measure(np.array([shares]))[0] > 0.1
 
 
+@pytest.mark.slow(every=True)
 @pytest.mark.parametrize("name", ["impact", "press-and-go"])
 def test_a_run_is_as_long_as_asked(name: str) -> None:
     """But for a hand that lets go later."""
@@ -173,6 +174,7 @@ def test_an_interrupt_ends_the_search() -> None:
         worst(family=["impact"], evaluations=80, progress=stop)
 
 
+@pytest.mark.slow
 def test_a_law_in_python_can_be_searched() -> None:
     class Bare:
         name = "bare"
@@ -350,6 +352,7 @@ class Pulling:
         pass
 
 
+@pytest.mark.slow
 def test_an_attribute_of_a_law_does_not_weaken_the_hands_of_a_search() -> None:
     base = ebac.Scenario(seconds=0.2)
     found = ebac.worst(Pulling(), family=["impact"], evaluations=40, base=base, threads=1)

@@ -35,13 +35,15 @@ def swept(scenarios: Sequence[Scenario]) -> Columns:
         NaN, or an empty text, where a scenario has no such parameter; a column `environment` with the kind of world
         where the scenarios have several.
     """
-    first, rows = scenarios[0], [dict[str, Any]() for _ in scenarios]
+    rows = [dict[str, Any]() for _ in scenarios]
     for part in _PARTS:
-        own = getattr(first, part)
-        if all(getattr(scenario, part) == own for scenario in scenarios):
+        values = [getattr(scenario, part) for scenario in scenarios]
+        distinct = {id(value): value for value in values}  # a part that stays is mostly one object
+        if all(value == values[0] for value in distinct.values()):
             continue
-        for scenario, row in zip(scenarios, rows, strict=True):
-            _flatten(part, getattr(scenario, part), row)
+        flat = {key: _flat(part, value) for key, value in distinct.items()}
+        for value, row in zip(values, rows, strict=True):
+            row.update(flat[id(value)])
     for name, column in _NUMBERS.items():
         for scenario, row in zip(scenarios, rows, strict=True):
             row[column] = getattr(scenario, name)
@@ -52,6 +54,13 @@ def swept(scenarios: Sequence[Scenario]) -> Columns:
         for name, values in columns.items()
         if any(value != values[0] for value in values)
     }
+
+
+def _flat(name: str, value: Any) -> dict[str, Any]:
+    """Return the parameters of a value as a row."""
+    row = dict[str, Any]()
+    _flatten(name, value, row)
+    return row
 
 
 def _flatten(name: str, value: Any, row: dict[str, Any]) -> None:
