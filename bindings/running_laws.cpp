@@ -64,13 +64,10 @@ void add_start(const LawClass& law) {
   law.def(
       "_stepped",
       [](const AnyLaw& any, const Setup& setup, const std::optional<can::TimedBus>& bus,
-         double ramp_down, std::size_t rows) {
-        return std::make_shared<SteppedRun>(any, setup, bus, ramp_down, rows);
-      },
-      "(self: LAW, setup: ebac._core.Setup, bus: ebac._core.TimedBus | None, ramp_down: "
-      "typing.SupportsFloat | typing.SupportsIndex, rows: typing.SupportsInt | "
-      "typing.SupportsIndex) -> ebac._core.SteppedRun",
-      "", py::arg("setup"), py::arg("bus"), py::arg("ramp_down"), py::arg("rows"));
+         std::size_t rows) { return std::make_shared<SteppedRun>(any, setup, bus, rows); },
+      "(self: LAW, setup: ebac._core.Setup, bus: ebac._core.TimedBus | None, rows: "
+      "typing.SupportsInt | typing.SupportsIndex) -> ebac._core.SteppedRun",
+      "", py::arg("setup"), py::arg("bus"), py::arg("rows"));
   law.def(
       "_check_retune", [](const AnyLaw& any, const AnyLaw& next) { check_retune(any, next); },
       "(self: LAW, next: LAW) -> None", "", py::arg("next"));

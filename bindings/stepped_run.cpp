@@ -9,18 +9,16 @@ namespace ebac::python {
 
 namespace {
 
-Setup with_ramp(Setup setup, double ramp_down) {
-  setup.loop.plan.ramp_down = ramp_down;
+Setup until_asked(Setup setup) {
+  setup.loop.plan.ticks = 0;
   return setup;
 }
 
 }  // namespace
 
 SteppedRun::SteppedRun(const AnyLaw& law, Setup setup, const std::optional<can::TimedBus>& bus,
-                       double ramp_down, std::size_t rows)
-    : Running(law),
-      dt_(setup.timing.dt),
-      loop_(loop(law, with_ramp(std::move(setup), ramp_down), bus)) {
+                       std::size_t rows)
+    : Running(law), dt_(setup.timing.dt), loop_(loop(law, until_asked(std::move(setup)), bus)) {
   loop_.device().device().switch_on();
   trace_ = loop_.make_trace(rows, /*ring=*/true);
   loop_.start();

@@ -22,7 +22,7 @@ class SteppedRun final : public Running {
  public:
   /// Enables the drives; no tick yet. Keeps the last `rows` rows. Throws as `simulate_through_can`.
   SteppedRun(const AnyLaw& law, Setup setup, const std::optional<can::TimedBus>& bus,
-             double ramp_down, std::size_t rows);
+             std::size_t rows);
 
   /// Takes so many ticks, fewer where the run ends; returns how many.
   std::int64_t advance(std::int64_t ticks);

@@ -4761,7 +4761,6 @@ class Direct:
         self,
         setup: Setup,
         bus: TimedBus | None,
-        ramp_down: typing.SupportsFloat | typing.SupportsIndex,
         rows: typing.SupportsInt | typing.SupportsIndex,
     ) -> SteppedRun: ...
     def _time_step(
@@ -4896,7 +4895,6 @@ class TCA:
         self,
         setup: Setup,
         bus: TimedBus | None,
-        ramp_down: typing.SupportsFloat | typing.SupportsIndex,
         rows: typing.SupportsInt | typing.SupportsIndex,
     ) -> SteppedRun: ...
     def _time_step(
@@ -5054,7 +5052,6 @@ class TCADamped:
         self,
         setup: Setup,
         bus: TimedBus | None,
-        ramp_down: typing.SupportsFloat | typing.SupportsIndex,
         rows: typing.SupportsInt | typing.SupportsIndex,
     ) -> SteppedRun: ...
     def _time_step(
@@ -5217,7 +5214,6 @@ class LagCompensator:
         self,
         setup: Setup,
         bus: TimedBus | None,
-        ramp_down: typing.SupportsFloat | typing.SupportsIndex,
         rows: typing.SupportsInt | typing.SupportsIndex,
     ) -> SteppedRun: ...
     def _time_step(
@@ -5383,7 +5379,6 @@ class PassivityControl:
         self,
         setup: Setup,
         bus: TimedBus | None,
-        ramp_down: typing.SupportsFloat | typing.SupportsIndex,
         rows: typing.SupportsInt | typing.SupportsIndex,
     ) -> SteppedRun: ...
     def _time_step(
@@ -5546,7 +5541,6 @@ class ISS:
         self,
         setup: Setup,
         bus: TimedBus | None,
-        ramp_down: typing.SupportsFloat | typing.SupportsIndex,
         rows: typing.SupportsInt | typing.SupportsIndex,
     ) -> SteppedRun: ...
     def _time_step(
@@ -5699,7 +5693,6 @@ class VirtualCoupling:
         self,
         setup: Setup,
         bus: TimedBus | None,
-        ramp_down: typing.SupportsFloat | typing.SupportsIndex,
         rows: typing.SupportsInt | typing.SupportsIndex,
     ) -> SteppedRun: ...
     def _time_step(
@@ -5850,7 +5843,6 @@ class SFA:
         self,
         setup: Setup,
         bus: TimedBus | None,
-        ramp_down: typing.SupportsFloat | typing.SupportsIndex,
         rows: typing.SupportsInt | typing.SupportsIndex,
     ) -> SteppedRun: ...
     def _time_step(
@@ -6001,7 +5993,6 @@ class ForceBounding:
         self,
         setup: Setup,
         bus: TimedBus | None,
-        ramp_down: typing.SupportsFloat | typing.SupportsIndex,
         rows: typing.SupportsInt | typing.SupportsIndex,
     ) -> SteppedRun: ...
     def _time_step(
@@ -6154,7 +6145,6 @@ class EBA:
         self,
         setup: Setup,
         bus: TimedBus | None,
-        ramp_down: typing.SupportsFloat | typing.SupportsIndex,
         rows: typing.SupportsInt | typing.SupportsIndex,
     ) -> SteppedRun: ...
     def _time_step(
@@ -6313,7 +6303,6 @@ class EBAAccount:
         self,
         setup: Setup,
         bus: TimedBus | None,
-        ramp_down: typing.SupportsFloat | typing.SupportsIndex,
         rows: typing.SupportsInt | typing.SupportsIndex,
     ) -> SteppedRun: ...
     def _time_step(
@@ -6500,7 +6489,6 @@ class EBACPrinted:
         self,
         setup: Setup,
         bus: TimedBus | None,
-        ramp_down: typing.SupportsFloat | typing.SupportsIndex,
         rows: typing.SupportsInt | typing.SupportsIndex,
     ) -> SteppedRun: ...
     def _time_step(
@@ -6775,7 +6763,6 @@ class EBAC:
         self,
         setup: Setup,
         bus: TimedBus | None,
-        ramp_down: typing.SupportsFloat | typing.SupportsIndex,
         rows: typing.SupportsInt | typing.SupportsIndex,
     ) -> SteppedRun: ...
     def _time_step(
@@ -9556,10 +9543,14 @@ def _tube(
 ) -> _Solid: ...
 def _union(arg0: collections.abc.Sequence[_Solid]) -> _Solid: ...
 def _with_loop(
-    setup: Setup, *, soft_start: typing.SupportsFloat | typing.SupportsIndex, limits: Limits | None
+    setup: Setup,
+    *,
+    soft_start: typing.SupportsFloat | typing.SupportsIndex,
+    ramp_down: typing.SupportsFloat | typing.SupportsIndex,
+    limits: Limits | None,
 ) -> Setup:
     """
-    Return the same setup with a soft start [s] and safety limits.
+    Return the same setup with a soft start [s], a ramp to zero force after its seconds [s], and safety limits.
     """
 
 def copley_current(

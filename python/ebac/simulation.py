@@ -103,6 +103,7 @@ def simulate(
     bus: _core.TimedBus | None = None,
     limits: _core.Limits | bool = False,
     soft_start: float = 0.0,
+    ramp_down: float = 0.0,
     **changes: Any,
 ) -> Trace:
     """Run a scenario under a law to its end.
@@ -129,13 +130,17 @@ def simulate(
         the workspace; and what else must end a run is then a fault. The trace has columns `limit.*`.
     soft_start : float
         Time in which the force comes in at the start [s], 0 to 60.
+    ramp_down : float
+        Time in which it goes out after `seconds` [s], 0 to 10, as at the end of a run on hardware: a hand that still
+        presses falls through the wall. The rows of that time have the state STOP. With 0 the last row is under the law.
     **changes
         Parameters to set on top of the design, in their SI units.
 
     Returns
     -------
     Trace
-        One row per tick, `seconds / dt + 1` rows.
+        One row per tick, `seconds / dt + 1` rows under the law; with `ramp_down` also those of the ramp, and 10 of
+        zero force.
 
     Warns
     -----
@@ -160,6 +165,7 @@ def simulate(
                 f"{name} belongs to the scenario, not to a law: ebac.simulate(scenario.replace({name}=...), law)"
             )
     require(soft_start, (int, float), "ebac.simulate", "soft_start in seconds, a number")
+    require(ramp_down, (int, float), "ebac.simulate", "ramp_down in seconds, a number")
     if bus is not None:
         require(bus, _core.TimedBus, "ebac.simulate", "a TimedBus")
         if through is None:
@@ -172,10 +178,10 @@ def simulate(
     mine = None if world is None else world.for_run()
     setup = (scenario if mine is None else scenario.replace(environment=mine)).setup()
     allowed = limits if isinstance(limits, _core.Limits) else None
-    if limits is not False or soft_start != 0:
+    if limits is not False or soft_start != 0 or ramp_down != 0:
         if limits is True:
             allowed = _core.Limits.of(scenario.device)
-        setup = _core._with_loop(setup, soft_start=soft_start, limits=allowed)
+        setup = _core._with_loop(setup, soft_start=soft_start, ramp_down=ramp_down, limits=allowed)
     _check_observer(finished, scenario)
     errors: list[BaseException] = []
     if is_core_law(finished):

@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 import ebac
 from ebac import _core
 from ebac._util.fault_remedies import REMEDIES
+from ebac.hardware import under_the_law
 
 Limits = _core.Limits
 
@@ -112,6 +113,34 @@ def test_a_wall_that_is_met_while_the_force_comes_in_becomes_exact(
     assert trace["law.starved"].max() < 1  # s
     later = trace["t"] > soft_start + 1
     assert np.ptp(trace["true.energy"][later]) < 2e-3  # J
+
+
+@pytest.mark.parametrize("through", [None, "can"])
+def test_after_its_time_the_force_goes_out_and_the_drives_rest(through: str | None) -> None:
+    run = ebac.Scenario(seconds=1.0)
+    trace = ebac.simulate(run, "ebac", through=through, limits=True, ramp_down=0.2)
+    usual = ebac.simulate(run, "ebac", through=through, limits=True)
+    assert len(under_the_law(trace)) == len(usual) == 1001
+    for name in ("true.x", "f_cmd", "current"):
+        assert (trace[name][:1001] == usual[name]).all()
+    assert trace["ramp"][1001:1201] == pytest.approx(1 - np.arange(1, 201) / 200, abs=1e-9)
+    assert (trace["current"][1200:] == 0).all()
+    assert len(trace) == 1200 + 10
+    assert ebac.contact(trace).row() == ebac.contact(usual).row()
+    # The hand still presses, and falls through.
+    assert trace["true.x"][-1] > usual["true.x"][-1] + 5e-3
+
+
+def test_a_fault_in_the_ramp_ends_it() -> None:
+    slow = ebac.Limits.of(ebac.Device()).replace(speed=0.2)
+    run = ebac.Scenario(
+        hand=ebac.Hand(path=ebac.MinimumJerk(target=0.04, duration=1.0)), seconds=2.0
+    )
+    assert len(ebac.simulate(run, "ebac", limits=slow)) == 2001
+    with pytest.raises(ebac.LoopFault) as caught:
+        ebac.simulate(run, "ebac", limits=slow, ramp_down=0.05)
+    assert caught.value.fault is ebac.Fault.OVERSPEED
+    assert (caught.value.trace["current"][-10:] == 0).all()
 
 
 @pytest.mark.parametrize("lever", [ebac.Linear, ebac.Gimbal])

@@ -17,7 +17,7 @@ from ebac.cli import app, doubtful_run
 from ebac.cli.files import FigureOptions
 from ebac.cli.run import names
 from ebac.cli.run.live import lines
-from ebac.hardware import Configuration, Run
+from ebac.hardware import Configuration, Run, under_the_law
 from ebac.hardware.lateness import explained, lateness, lateness_of
 from ebac.hardware.virtual_device import VirtualDevice
 from ebac.simulation import LoopFault
@@ -335,7 +335,8 @@ def test_the_view_of_a_run_asks_for_the_handle_before_the_force_fades(
 ) -> None:
     known = Configuration.load(EXAMPLE).replace(seconds=seconds)
     run: Any = SimpleNamespace(law=known.design(), recorder=None)
-    said = lines(known, run, known.simulate(seconds=1.0, bus_time=False))
+    trace = under_the_law(known.simulate(seconds=1.0, bus_time=False))
+    said = lines(known, run, trace)
     assert ("release the handle" in said[0]) is soon
 
 

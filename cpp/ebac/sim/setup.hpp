@@ -27,9 +27,17 @@ struct Setup {
   std::optional<ObserverParams> observer{};
 };
 
-/// Rows of a whole run: one for every tick from 0 to its end.
+/// Ticks under the law: one for every tick from 0 to the end.
+inline std::int64_t tick_count(const Setup& setup) {
+  return std::llround(setup.seconds / setup.timing.dt) + 1;
+}
+
+/// Rows of a whole run, at most; with those in which the force goes out and the device is stopped.
 inline std::size_t row_count(const Setup& setup) {
-  return static_cast<std::size_t>(std::llround(setup.seconds / setup.timing.dt)) + 1;
+  const RunPlan& plan = setup.loop.plan;
+  const double ramp = plan.ramp_down > 0 ? std::ceil(plan.ramp_down / setup.timing.dt) : 0;
+  const std::int64_t end = plan.ticks > 0 ? std::llround(ramp) + 1 + plan.stop_ticks : 0;
+  return static_cast<std::size_t>(tick_count(setup) + end);
 }
 
 }  // namespace ebac

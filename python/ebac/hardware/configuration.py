@@ -279,6 +279,7 @@ class Configuration:
             bus=self.timed_bus() if bus_time else None,
             limits=self.limits,
             soft_start=self.soft_start,
+            ramp_down=self.ramp_down,
         )
 
     def _on_virtual_clock(self, seconds: float | None = None) -> Scenario:

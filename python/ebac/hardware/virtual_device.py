@@ -73,9 +73,11 @@ class VirtualDevice:
             seed=scenario.seed,
             observer=scenario.designed_observer(),
         )
-        setup = _core._with_loop(setup, soft_start=known.soft_start, limits=known.limits)
+        setup = _core._with_loop(
+            setup, soft_start=known.soft_start, ramp_down=known.ramp_down, limits=known.limits
+        )
         rows = ceil(known.memory / known.timing.dt)
-        running: _core.SteppedRun = law._stepped(setup, bus, known.ramp_down, rows)
+        running: _core.SteppedRun = law._stepped(setup, bus, rows)
 
         def power_off() -> list[str]:
             try:

@@ -24,8 +24,8 @@ _ABOVE_AXES: dict[str, Any] = {
 _OPTIONS = "ebac_options"
 
 
-def legend(ax: Axes, columns: int = 4) -> None:
-    """Put the legend above the axes; nothing where nothing has a label.
+def legend(ax: Axes, columns: int = 4, title: str = "") -> None:
+    """Put the legend above the axes, and above it a title; nothing where nothing has a label.
 
     Parameters
     ----------
@@ -33,9 +33,15 @@ def legend(ax: Axes, columns: int = 4) -> None:
         Which.
     columns : int
         Of the legend.
+    title : str
+        Printed in bold; it moves up where the legend has more lines.
     """
     if ax.get_legend_handles_labels()[0]:
-        _make(ax, {**_ABOVE_AXES, "ncols": columns, "frameon": False, "fontsize": LETTERS})
+        options: dict[str, Any] = {"ncols": columns, "frameon": False, "fontsize": LETTERS}
+        if title:
+            bold = {"weight": "bold", "size": "large"}
+            options |= {"title": title, "title_fontproperties": bold, "alignment": "left"}
+        _make(ax, {**_ABOVE_AXES, **options})
 
 
 def figure_legend(

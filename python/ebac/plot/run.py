@@ -96,7 +96,7 @@ def plot_trace(trace: Trace, *, events: Sequence[Event] = ()) -> Picture:
             above = figure.add_subplot(grid[row, column], sharex=above)
             draw(above, trace, axis, trace)
             if trace.axes > 1 and row == 0:
-                above.set_title(f"axis {axis}", pad=22, fontweight="bold")
+                legend(above, columns=6, title=f"axis {axis}")
             _time_below(above, last=row == len(panels) - 1)
     if contact is not None:
         _enlarge(figure.axes, grid, panels, contact, used[0], trace)

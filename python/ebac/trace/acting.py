@@ -28,6 +28,9 @@ def under_the_law(trace: Trace) -> Trace:
     return part.with_column("t", part["t"] - part["t"][0])
 
 
-def of_drives(trace: Trace) -> bool:
-    """Return whether a trace has rows in which the loop waited for drives, before its law acted."""
-    return "state" in trace and bool((trace["state"] == int(LoopState.ARM)).any())
+def waits_or_ramps(trace: Trace) -> bool:
+    """Return whether a trace has rows in which the loop waited for drives or ramped its force down, without a fault."""
+    if "state" not in trace:
+        return False
+    outside = np.isin(trace["state"], [int(LoopState.ARM), int(LoopState.STOP)])
+    return bool((outside & (trace["fault"] == 0)).any())

@@ -87,20 +87,21 @@ class Result:
         cls, configuration: Configuration, trace: Trace, log: Path | None, fault: LoopFault | None
     ) -> Self:
         """Measure a run on a virtual clock."""
-        from ebac.hardware import Report
+        from ebac.hardware import Report, under_the_law
         from ebac.metrics import FEWEST_ROWS, contact, current_limits, observer_use
 
-        measured = len(trace) >= FEWEST_ROWS and fault is None
+        part = under_the_law(trace)
+        measured = len(part) >= FEWEST_ROWS and fault is None
         return cls(
             configuration=configuration,
             trace=trace,
             report=Report.of_virtual(trace, log, fault=fault is not None),
             place="simulated drives on a bus inside this process",
             simulated=True,
-            contact=contact(trace, truth=False) if measured else None,
+            contact=contact(part, truth=False) if measured else None,
             expected=None,
-            observer=observer_use(trace),
-            limits=current_limits(trace),
+            observer=observer_use(part),
+            limits=current_limits(part),
             times=None,
             fault=None if fault is None else fault.fault.name.lower(),
             virtual=True,
