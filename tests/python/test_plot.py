@@ -64,7 +64,21 @@ def test_one_column_of_panels_per_axis_in_use(run: Run) -> None:
     assert "axis 1 not in use" in figure.get_suptitle()
     hand = ebac.Hand(path=(ebac.Step(target=0.02), ebac.Step(target=0.01), ebac.Step(target=0.0)))
     both = plot_trace(run("direct", device=joystick, hand=hand, seconds=1.0))
-    assert [ax.get_title() for ax in both.axes if ax.get_title()] == ["axis 0", "axis 1"]
+    legends = [legend for ax in both.axes if (legend := ax.get_legend())]
+    titles = [title for legend in legends if (title := legend.get_title().get_text())]
+    assert titles == ["axis 0", "axis 1"]
+
+
+def test_the_name_of_an_axis_stands_above_a_legend_of_two_lines(run: Run) -> None:
+    """It was a title at a fixed height, covered by the second line."""
+    device = ebac.presets.device("joystick")
+    trace = run("ebac", device=device, environment=ebac.Wall(position=0.01), seconds=3.0)
+    figure = plot_trace(trace)
+    figure.draw_without_rendering()
+    legend = figure.axes[0].get_legend()
+    assert legend is not None
+    title, *words = (t.get_window_extent() for t in [legend.get_title(), *legend.get_texts()])
+    assert all(title.y0 >= word.y1 for word in words)
 
 
 def test_a_part_of_a_trace_is_drawn_over_its_own_time(run: Run) -> None:
