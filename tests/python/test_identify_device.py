@@ -279,3 +279,14 @@ def test_the_check_command(tmp_path: Path) -> None:
     document = json.loads(run.stdout)
     assert document["what"] == "device"
     assert {row["parameter"] for row in document["rows"]} >= {"M_h", "B_h", "coulomb", "weight"}
+
+
+def test_a_force_of_mostly_noise_is_named_and_no_interval_is_nan() -> None:
+    """The intervals were "nan to nan", beside a warning of NumPy, and nothing said why."""
+    loud = ebac.Device(mechanics=ebac.Mechanics(coulomb=0.3), sensor=ebac.ForceSensor(noise=0.7))
+    hand = ebac.Hand(path=ebac.Sine(amplitude=0.02, frequency=1.0))
+    scenario = ebac.Scenario(device=loud, hand=hand, environment=ebac.Free(), seconds=10.0)
+    found = fit_device(Recording.from_trace(ebac.simulate(scenario, "direct")))
+    assert found.impossible
+    assert any("has a noise of 0.7" in sentence for sentence in found.misses)
+    assert not np.isnan([(e.low, e.high) for e in found.estimates.values()]).any()

@@ -17,6 +17,7 @@ from ebac.identify.estimate import Estimate
 from ebac.identify.intervals import Z95
 from ebac.identify.parameters import BOUNDS
 from ebac.identify.recording import Recording
+from ebac.identify.signals import rough
 from ebac.identify.validation import flip_advice, seems_flipped
 
 #: Standard gravity [m/s^2].
@@ -24,6 +25,8 @@ GRAVITY = 9.80665
 #: A parameter is determined where half of its interval is this share of its value at most. Friction and weight may be
 #: none: they are, too, where half of the interval is this share of the force that moves the device.
 SHARE, OF_FORCE = 0.25, 0.02
+#: Noise of the force, as a share of what moves the device, with which a search may end anywhere.
+NOISY = 0.5
 UNITS = ("kg", "N s/m", "N", "N", "N")
 ROTARY_UNITS = ("kg m^2", "N m s/rad", "N m", "N m", "N m")
 
@@ -65,6 +68,7 @@ class DeviceResult:
     def estimates(self) -> dict[str, Estimate]:
         """Every parameter by name: M_h, B_h, coulomb, weight (towards +x), stribeck (breakaway above Coulomb)."""
         half = Z95 * np.sqrt(np.diag(self.covariance))
+        half[np.isnan(half)] = np.inf  # nothing is known
         rows = zip(self.names, self.values.tolist(), half.tolist(), self.units, strict=False)
         return {
             name: Estimate(
@@ -122,7 +126,7 @@ class DeviceResult:
                 f"The log has no {self._effort} of the hand: nobody may touch the handle while the motor moves it."
             )
         elif wrong:
-            wrong += motor_check.doubts([self.recording])
+            wrong += [*self._noisy(), *motor_check.doubts([self.recording])]
         share = 0.0 if wrong else self.explained
         if turned and seems_flipped(share, self.other_signs[turned]):
             sentence = f"The device explains {{}} of the {self._effort} where it slides"
@@ -134,6 +138,20 @@ class DeviceResult:
                 "there: the record seems to be cut. These rows were left out; record what the motor gave."
             )
         return tuple(wrong)
+
+    def _noisy(self) -> list[str]:
+        """Return a sentence where the force has more noise than what moves the device can stand."""
+        unit = "N m" if self.recording.rotary else "N"
+        if self.recording.force is None:
+            return []
+        noise = rough(self.recording.force)
+        moving = float(np.sqrt(np.mean(self.drive.smooth_force[self.drive.slides] ** 2)))
+        if noise < NOISY * moving:
+            return []
+        return [
+            f"The {self._effort} has a noise of {noise:.2g} {unit} where {moving:.2g} {unit} move the device: move it "
+            f"faster, or record a quieter {self._effort}; a filter needs its lag declared."
+        ]
 
     @property
     def compensation(self) -> Compensation:

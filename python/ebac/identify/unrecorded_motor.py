@@ -152,7 +152,8 @@ def with_any_share(
         more += (VARIANCE * known + SQUARE * other) * np.outer(along, along)
         more += SQUARE * DRAG**2 * (known + other) * np.outer(mass, mass)
     more += VARIANCE * np.outer(common, common) + SQUARE * DRAG**2 * np.outer(drag, drag)
-    return np.asarray(turn @ covariance @ turn.T + more)
+    with np.errstate(invalid="ignore"):  # of a search that came to nothing
+        return np.asarray(turn @ covariance @ turn.T + more)
 
 
 def _shifts(problem: Problem) -> list[tuple[Part, Values]]:
