@@ -45,7 +45,11 @@ void bind_options(py::module_& m) {
       .def_readonly("asked", &rt::Grant::asked, "Requested resource.")
       .def_readonly("granted", &rt::Grant::granted, "Whether it was granted.")
       .def_readonly("why", &rt::Grant::why, "Reason of a refusal; empty if granted.")
-      .def_readonly("remedy", &rt::Grant::remedy, "The command that would grant it.");
+      .def_readonly("remedy", &rt::Grant::remedy, "The command that would grant it.")
+      .def("__repr__", [](const rt::Grant& one) {
+        return "<Grant " + one.name + ": " + one.asked +
+               (one.granted ? ", granted" : ", not granted: " + one.why) + ">";
+      });
 }
 
 void bind_aim(py::module_& m) {

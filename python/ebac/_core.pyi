@@ -805,6 +805,7 @@ class Grant:
     One resource that a thread requested from the system.
     """
     def __init__(self, *, name: str, asked: str, granted: bool, why: str, remedy: str) -> None: ...
+    def __repr__(self) -> str: ...
     @property
     def asked(self) -> str:
         """

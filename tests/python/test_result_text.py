@@ -336,7 +336,10 @@ def test_the_report_of_a_run_prints_in_words() -> None:
     assert text.startswith(f"Run of {len(trace):,} ticks, ended by time\n  log       none\n")
     assert "  grant     memory: all pages locked, granted\n" in text
     assert "priority: SCHED_FIFO 80, not granted (Operation not permitted); ulimit -r 80" in text
-    assert "object at 0x" not in text + repr(report)
+    assert "object at 0x" not in text + repr(report) + repr(grants)
+    assert (
+        repr(grants[1]) == "<Grant priority: SCHED_FIFO 80, not granted: Operation not permitted>"
+    )
     assert repr(report).endswith("ended by time; no log; not granted: priority>")
 
 
