@@ -137,6 +137,22 @@ def test_a_scenario_is_told_in_one_line() -> None:
     assert "1 kHz, 1 sample of delay, jitter 10 %" in text
 
 
+@pytest.mark.parametrize(
+    ("path", "said"),
+    [
+        ((ebac.Step(target=0.01), ebac.Step(target=0.04)), "target 10, 40 mm)"),
+        ((ebac.Step(target=0.01), ebac.Step(target=0.0)), "target 10 mm)"),
+        ((ebac.Step(target=0.0),), "target 0 mm)"),
+        ((ebac.Step(target=0.01), ebac.Sine()), "a Step path and a Sine path)"),
+    ],
+)
+def test_a_hand_is_described_on_every_axis_that_it_moves_on(
+    path: tuple[Any, ...], said: str
+) -> None:
+    """Only the first path was, where a corner is pressed into along two."""
+    assert descriptions.described_hand(ebac.Hand(path=path)).endswith(said)
+
+
 # --- help, version ---
 
 

@@ -69,6 +69,20 @@ def test_one_column_of_panels_per_axis_in_use(run: Run) -> None:
     assert titles == ["axis 0", "axis 1"]
 
 
+def test_walls_of_several_axes_show_the_one_on_which_a_law_swings(run: Run) -> None:
+    """In a corner they showed the first axis, at rest, while the second swung at the peak force."""
+    hand = ebac.Hand(path=(ebac.Step(target=0.01), ebac.Step(target=0.04)))
+    given = {
+        "device": ebac.presets.device("joystick"), "hand": hand, "environment": ebac.Corner(), "seconds": 2.0,
+    }  # fmt: skip
+    swings = plot_walls([run("direct", **given), run("ebac", **given)])
+    assert swings.axes[0].get_ylabel() == "position y [mm]"
+    drawn = swings.axes[0].lines[0].get_ydata()
+    assert np.ptp(np.asarray(drawn)) > 5  # mm
+    still = plot_walls(run("ebac", **given))
+    assert still.axes[0].get_ylabel() == "position x [mm]"
+
+
 def test_the_name_of_an_axis_stands_above_a_legend_of_two_lines(run: Run) -> None:
     """It was a title at a fixed height, covered by the second line."""
     device = ebac.presets.device("joystick")

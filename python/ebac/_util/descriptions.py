@@ -137,13 +137,16 @@ def described_hand(hand: Hand) -> str:
     from ebac.hands import is_own
 
     known = [f"the {name} hand" for name, p in presets.HANDS.items() if p.hand == hand]
-    path = hand.path[0]
+    paths = list(hand.path)
+    while len(paths) > 1 and paths[-1] == Step(target=0):
+        paths.pop()
+    targets = [path.target for path in paths if isinstance(path, (Step, MinimumJerk))]
     if is_own(hand.model):
         goal = "a force of its own"
-    elif isinstance(path, (Step, MinimumJerk)):
-        goal = f"target {1e3 * path.target:g} mm"
+    elif len(targets) == len(paths):
+        goal = f"target {', '.join(f'{1e3 * target:g}' for target in targets)} mm"
     else:
-        goal = f"a {type(path).__name__} path"
+        goal = " and ".join(dict.fromkeys(f"a {type(path).__name__} path" for path in paths))
     if hand.tremor_amplitude:
         goal += f", tremor {1e3 * hand.tremor_amplitude:g} mm at {hand.tremor_frequency:g} Hz"
     name = known[0] if known else "a hand"

@@ -13,7 +13,7 @@ from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 
 from ebac._util.arrays import Values
-from ebac.metrics import EXACT_COUNTS, TAIL_SHARE, allowed_deviation, ideal_rest
+from ebac.metrics import EXACT_COUNTS, STILL_SWING, TAIL_SHARE, allowed_deviation, ideal_rest
 from ebac.plot.marks import fault_name, for_laws, heading, mark_end
 from ebac.plot.style import (
     IDEAL,
@@ -48,6 +48,17 @@ class _Run(NamedTuple):
         return f"{self.name}, ended by {fault}" if fault else self.name
 
 
+class _Direction(NamedTuple):
+    """The axis of the device that is drawn, and its letter; none where there is but one."""
+
+    axis: int
+    letter: str
+
+    def label(self, quantity: str) -> str:
+        """Return a label that says which axis it shows."""
+        return quantity.replace(" [", f" {self.letter} [") if self.letter else quantity
+
+
 def plot_walls(traces: Trace | Sequence[Trace] | Mapping[str, Trace]) -> Picture:
     """Draw the paper's Fig. 11: several laws against one wall, how they meet it and where they end.
 
@@ -61,7 +72,8 @@ def plot_walls(traces: Trace | Sequence[Trace] | Mapping[str, Trace]) -> Picture
     -------
     Figure
         Position, force and beta over time, up to three laws together and more in panels of their
-        own; below, the end at the scale of encoder counts, where a law comes near an ideal rest.
+        own; below, the end at the scale of encoder counts, where a law comes near an ideal rest. Of several axes it
+        shows the first, or another where a law swings more, and its labels say which.
 
     Raises
     ------
@@ -71,8 +83,10 @@ def plot_walls(traces: Trace | Sequence[Trace] | Mapping[str, Trace]) -> Picture
     named = _named(traces)
     if not named or min(map(len, named.values())) < 10:
         raise ValueError("a figure of walls needs at least one trace, each of at least 10 rows")
-    shades = colours(named)
-    return _draw([_Run(name, shades[name], trace) for name, trace in named.items()], narrow=False)
+    shades, axis = colours(named), _axis_shown(list(named.values()))
+    runs = [_Run(name, shades[name], _along(trace, axis)) for name, trace in named.items()]
+    several = any(trace.axes > 1 for trace in named.values())
+    return _draw(runs, _Direction(axis, "xyz"[axis] if several else ""), narrow=False)
 
 
 def _named(traces: Trace | Sequence[Trace] | Mapping[str, Trace]) -> dict[str, Trace]:
@@ -88,18 +102,37 @@ def _named(traces: Trace | Sequence[Trace] | Mapping[str, Trace]) -> dict[str, T
     return named
 
 
-def _draw(runs: Sequence[_Run], *, narrow: bool) -> Picture:
+def _axis_shown(traces: Sequence[Trace]) -> int:
+    """Return the axis on which a law swings most at the end of its run; the first where all are still."""
+    swings = [0.0] * min(trace.axes for trace in traces)
+    for trace in traces:
+        end = trace[float(trace["t"][-1] - TAIL_SHARE * np.ptp(trace["t"])) :]
+        for axis in range(len(swings)):
+            if trace.axis("f_env", axis).any():
+                swings[axis] = max(swings[axis], float(np.ptp(_place(end, axis))))
+    most = int(np.argmax(swings))
+    return most if swings[most] > STILL_SWING else 0
+
+
+def _along(trace: Trace, axis: int) -> Trace:
+    """Return one axis of a trace."""
+    if trace.axes == 1:
+        return trace
+    return trace._with({name: trace.axis(name, axis) for name in trace})
+
+
+def _draw(runs: Sequence[_Run], way: _Direction, *, narrow: bool) -> Picture:
     traces = [run.trace for run in runs]
-    ideal = ideal_rest(traces[0].scenario) if traces[0].scenario else None
+    ideal = ideal_rest(traces[0].scenario) if traces[0].scenario and way.axis == 0 else None
     contact = _first_contact(traces)
     begun = [_parts(trace, contact)[0] for trace in traces]
     rows = [row for row in ROWS if row != "beta" or any(map(_has_beta, begun))]
     draw = _together if len(runs) <= TOGETHER else _apart
     rests = ideal is not None and any(_offset(trace, ideal) is not None for trace in traces)
-    figure, near = draw(runs, rows, near=rests, narrow=narrow)
-    figure.narrow = partial(_draw, runs, narrow=True)
+    figure, near = draw(runs, rows, way, near=rests, narrow=narrow)
+    figure.narrow = partial(_draw, runs, way, narrow=True)
     if ideal is not None and near is not None:
-        _near(near, runs, ideal, named=draw is _apart)
+        _near(near, runs, ideal, way, named=draw is _apart)
     if traces[0].scenario is not None:
         figure.suptitle(_heading(traces, traces[0].scenario), fontsize="medium")
     figure.align_ylabels()
@@ -112,7 +145,7 @@ def _heading(traces: Sequence[Trace], scenario: Scenario) -> str:
 
 
 def _together(
-    runs: Sequence[_Run], rows: list[str], *, near: bool, narrow: bool
+    runs: Sequence[_Run], rows: list[str], way: _Direction, *, near: bool, narrow: bool
 ) -> tuple[Picture, Axes | None]:
     """Draw all laws in the same panels: the beginning on the left, the end on the right."""
     names: list[Any] = [[row, f"{row} end"] for row in ("x", "f")]
@@ -131,15 +164,16 @@ def _together(
             if row != "beta":
                 _lines(axes[f"{row} end"], row, end, run.shade, label="_")
     for row in rows:
-        dress(axes[row], _axis_label(row, first))
+        dress(axes[row], way.label(ROWS[row]))
     for row in ("x", "f"):
         dress(axes[f"{row} end"], "")
         axes[f"{row} end"].sharey(axes[row])
         axes[f"{row} end"].tick_params(labelleft=False)
     if "beta" in rows:
         axes["beta"].sharex(axes["x"])
-    landmarks(axes["x"], first)
-    landmarks(axes["x end"], first)
+    if way.axis == 0:
+        landmarks(axes["x"], first)
+        landmarks(axes["x end"], first)
     axes["x"].set_title("first contact with the wall", fontsize="medium")
     axes["x end"].set_title("the end of the run", fontsize="medium")
     for name in (rows[-1], "f end"):
@@ -152,7 +186,7 @@ def _together(
 
 
 def _apart(
-    runs: Sequence[_Run], rows: list[str], *, near: bool, narrow: bool
+    runs: Sequence[_Run], rows: list[str], way: _Direction, *, near: bool, narrow: bool
 ) -> tuple[Picture, Axes | None]:
     """Draw each law in panels of its own, three or four laws abreast; few panels of beta stand beside the end."""
     abreast = 2 if narrow else min((3, 4), key=lambda n: -len(runs) % n)  # fewest empty places
@@ -186,9 +220,10 @@ def _apart(
             left = column == 0 or (not _has_beta(band[column - 1].trace) and row == "beta")
             first.setdefault(row, ax)
             _lines(ax, row, _parts(trace, contact)[0], run.shade, label="_")
-            dress(ax, _axis_label(row, trace) if left else "")
-            if row == "x":
+            dress(ax, way.label(ROWS[row]) if left else "")
+            if row == "x" and way.axis == 0:
                 landmarks(ax, trace)
+            if row == "x":
                 ax.set_title(run.label, color=run.shade, fontweight="bold")
             last = row == ("beta" if "beta" in rows and _has_beta(trace) else "f")
             ax.tick_params(labelbottom=last, labelleft=left)
@@ -199,7 +234,7 @@ def _apart(
         left = "beta" not in first
         first.setdefault("beta", ax)
         _lines(ax, "beta", _parts(run.trace, contact)[0], run.shade, label="_")
-        dress(ax, _axis_label("beta", run.trace) if left else "")
+        dress(ax, way.label(ROWS["beta"]) if left else "")
         ax.tick_params(labelleft=left)
         ax.set_title(run.label, color=run.shade, fontweight="bold")
         ax.set_xlabel("time [s]")
@@ -209,17 +244,12 @@ def _apart(
     return figure, figure.add_subplot(grid[-1, : abreast - len(beside)]) if near else None
 
 
-def _axis_label(row: str, trace: Trace) -> str:
-    """Return the label of a row of panels; on a device of several axes, that it shows the first."""
-    return ROWS[row] if trace.axes == 1 else ROWS[row].replace(" [", " x [")
-
-
 def _marks(ax: Axes) -> dict[str, Artist]:
     return dict(zip(*reversed(ax.get_legend_handles_labels()), strict=True))
 
 
-def _place(trace: Trace) -> Values:
-    return trace.axis("true.x" if "true.x" in trace else "x")
+def _place(trace: Trace, axis: int = 0) -> Values:
+    return trace.axis("true.x" if "true.x" in trace else "x", axis)
 
 
 def _restlessness(trace: Trace) -> float:
@@ -276,7 +306,7 @@ def _offset(trace: Trace, ideal: float) -> tuple[Values, Values] | None:
     return (part["t"], offset) if near else None
 
 
-def _near(ax: Axes, runs: Sequence[_Run], ideal: float, *, named: bool) -> None:
+def _near(ax: Axes, runs: Sequence[_Run], ideal: float, way: _Direction, *, named: bool) -> None:
     """Draw the last 30 % around the ideal point, at the scale of encoder counts; its legend may name the laws."""
     first = runs[0].trace
     scenario, band = first.scenario, _band(first)
@@ -292,8 +322,7 @@ def _near(ax: Axes, runs: Sequence[_Run], ideal: float, *, named: bool) -> None:
             away.append(run.name)
         else:
             line(ax, *offset, color=run.shade, lw=1.2, label=run.name if named else "_")
-    along = "" if first.axes == 1 else " x"
-    dress(ax, f"beyond the\nideal rest{along} [mm]")
+    dress(ax, way.label("beyond the\nideal rest [mm]"))
     ax.set_xlabel("time [s]")
     if away:
         names = fill(f"off this scale: {', '.join(away)}", 60)

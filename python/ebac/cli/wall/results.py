@@ -160,8 +160,9 @@ def show(
         output.say(weak)
     if scenario.device.axes > 1:
         output.say(
-            f"Of the {scenario.device.axes} axes: rest and deepest are those of the first, which the figure shows; "
-            "swings, settling times, jumps and vibration are the worst of all on which the world acts."
+            f"Of the {scenario.device.axes} axes: rest and deepest are those of the first; swings, settling times, "
+            "jumps and vibration are the worst of all on which the world acts. The figure shows the first, or one on "
+            "which a law swings more."
         )
     for first in range(0, len(bodies or []), LAWS_ABREAST):
         part = slice(first, first + LAWS_ABREAST)
