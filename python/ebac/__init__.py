@@ -9,6 +9,7 @@ A first look::
     trace.plot()
 """
 
+import ebac._util.parent  # noqa: F401 - which notes it now
 from ebac._util.lazy import from_stub
 
 __getattr__, __dir__, __all__ = from_stub(__name__, __file__)

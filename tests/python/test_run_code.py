@@ -11,7 +11,7 @@ import pytest
 from ebac import _core, drives
 from ebac.drives.state import State
 from ebac.hardware import Configuration, Run, drive_setup
-from ebac.hardware.interrupts import Interrupts
+from ebac.hardware.interrupts import OTHERS, SIGNALS, Interrupts, Terminated
 from ebac.hardware.run_setup import run_setup
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "joystick.toml"
@@ -67,11 +67,41 @@ def test_a_second_signal_hurries_and_does_not_break_the_stop() -> None:
     interrupts, hurried = Interrupts(), []
     interrupts.hurry = lambda: hurried.append(True)
     interrupts.moving()
-    with pytest.raises(KeyboardInterrupt):
-        interrupts._take(signal.SIGINT, None)
-    assert not hurried
-    interrupts._take(signal.SIGINT, None)
+    with interrupts:
+        with pytest.raises(KeyboardInterrupt):
+            signal.raise_signal(signal.SIGINT)
+        assert not hurried
+        signal.raise_signal(signal.SIGINT)
     assert hurried == [True]
+
+
+@pytest.mark.parametrize("closed", [0, 1])
+def test_several_may_be_open_and_be_closed_in_any_order(closed: int) -> None:
+    """The first, closed before the second, put Python's handlers back: the next Ctrl-C did not stop the loop."""
+    before = {number: signal.getsignal(number) for number in (*SIGNALS, *OTHERS)}
+    both = [Interrupts(), Interrupts()]
+    for one in both:
+        one.__enter__()
+    both.pop(closed).__exit__(None, None, None)
+    (left,) = both
+    left.moving()
+    for number, error in ((signal.SIGTERM, Terminated), (signal.SIGINT, KeyboardInterrupt)):
+        left.moving()
+        with pytest.raises(error):
+            signal.raise_signal(number)
+        signal.raise_signal(number)  # kept
+    left.__exit__(None, None, None)
+    assert {number: signal.getsignal(number) for number in before} == before
+
+
+def test_one_that_is_being_stopped_keeps_a_signal_from_the_others() -> None:
+    with Interrupts() as stopped, Interrupts() as idle:
+        stopped.moving()
+        stopped.ending()
+        signal.raise_signal(signal.SIGINT)
+        idle.settled()
+        with pytest.raises(KeyboardInterrupt):
+            stopped.settled()
 
 
 def bare_run(**parts: Any) -> tuple[Run, list[bool]]:

@@ -144,6 +144,32 @@ def test_the_death_of_the_parent_ends_it(config: Path, tmp_path: Path) -> None:
     assert (found.trace["current"][-1] == 0).all()
 
 
+def test_a_parent_that_dies_before_the_run_lets_no_motor_have_power(
+    config: Path, tmp_path: Path
+) -> None:
+    """The run remembered who had taken it over, and lasted its whole time."""
+    ready, told = tmp_path / "ready", tmp_path / "told"
+    child = (
+        "import os, time, ebac\n"
+        f"with ebac.Device.open({str(config)!r}, simulate=True) as device:\n"
+        f"    open({str(ready)!r}, 'w').close()\n"
+        "    mother = os.getppid()\n"
+        "    while os.getppid() == mother: time.sleep(0.01)\n"
+        "    try: device.run(seconds=1.0)\n"
+        f"    except RuntimeError as error: open({str(told)!r}, 'w').write(str(error))\n"
+    )
+    script = f"import subprocess, sys; subprocess.run([sys.executable, '-c', {child!r}])"
+    parent = subprocess.Popen([sys.executable, "-c", script], stdout=subprocess.DEVNULL)
+    end = time.monotonic() + PATIENCE
+    while not ready.exists() and time.monotonic() < end:
+        time.sleep(0.02)
+    parent.kill()
+    parent.wait()
+    while not (told.exists() and told.read_text()) and time.monotonic() < end:
+        time.sleep(0.02)
+    assert "the program that started this one has ended" in told.read_text()
+
+
 class Lateness:
     """The longest this process was kept waiting beyond what it asked for [s]."""
 

@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any, Self
 
 from ebac._util.exception_notes import noted_on
 from ebac._util.foreign_worlds import foreign
+from ebac._util.parent import parent_gone
 from ebac._util.wrong_calls import plain_constructor
 from ebac.drives import Backups, check_stall
 from ebac.hardware import drive_setup
@@ -251,9 +252,15 @@ class OpenDevice:
         Raises
         ------
         RuntimeError
-            When a run is under way, or the last one ended by a fault and `reset` was not called.
+            When a run is under way, when the last one ended by a fault and `reset` was not called, or when the process
+            that started this one has ended and the device is not `detached`.
         """
         self._between_runs()
+        if not self._detached and parent_gone():
+            raise RuntimeError(
+                "the program that started this one has ended, so nobody may be there to end a run: start it again, or "
+                "open the device with detached=True (`ebac run --detached`), which goes on without"
+            )
         if not self.confirmed:
             raise PositionError(
                 "nobody has confirmed the zero of the encoders: compare `device.positions()` with the handle, then "

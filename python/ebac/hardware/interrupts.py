@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-import os
 import signal
 import threading
 from collections.abc import Callable
 from types import FrameType, TracebackType
 from typing import Any, Self
+
+from ebac._util.parent import parent_gone
 
 #: Signals that end a run; what the system sends when somebody types Ctrl-C, ends a process, or closes a terminal.
 SIGNALS = (signal.SIGINT, signal.SIGTERM, *([signal.SIGHUP] if hasattr(signal, "SIGHUP") else []))
@@ -41,10 +42,10 @@ class Interrupts:
     The first one while something moves is raised where the main thread stands: KeyboardInterrupt for SIGINT,
     `Terminated` for the others. From then on, or from `ending`, they are kept until `settled`: a second Ctrl-C does not
     keep a motor on, but calls `hurry`. Elsewhere than in the main thread Python takes no signals, and nothing changes.
+    Several may be open, and be closed in any order.
     """
 
     def __init__(self) -> None:
-        self._before: dict[int, Any] = {}
         self._moving = False
         self._ending = False
         self._kept: int | None = None
@@ -52,11 +53,7 @@ class Interrupts:
         self.hurry: Callable[[], None] = lambda: None  #: leaves out what is gentle in the stop
 
     def __enter__(self) -> Self:
-        if threading.current_thread() is threading.main_thread():
-            free = [one for one in OTHERS if signal.getsignal(one) == signal.SIG_DFL]
-            self._before = {
-                number: signal.signal(number, self._take) for number in (*SIGNALS, *free)
-            }
+        _HANDLERS.add(self)
         return self
 
     def __exit__(
@@ -65,10 +62,7 @@ class Interrupts:
         error: BaseException | None,
         trace: TracebackType | None,
     ) -> None:
-        if threading.current_thread() is threading.main_thread():
-            for number, handler in self._before.items():
-                signal.signal(number, handler)
-        self._before = {}
+        _HANDLERS.remove(self)
 
     def moving(self) -> None:
         """Take the next signal as the end of what moves from here on."""
@@ -91,33 +85,63 @@ class Interrupts:
         if kept is not None and self.first is None and here:
             _raise(kept)
 
-    def _take(self, number: int, frame: FrameType | None) -> None:
+    def taken(self, number: int) -> bool:
+        """Take a signal; return whether it is kept, as what moves is being stopped already."""
         if self._ending:
             self._kept = number
             self.hurry()
-            return
+            return True
         self._ending = self._moving
         if self._moving:
             self.first = number
-        _raise(number)
+        return False
+
+
+class _Handlers:
+    """The handlers of this process while any `Interrupts` is open: what was there before comes back with the last."""
+
+    def __init__(self) -> None:
+        self._open: list[Interrupts] = []
+        self._before: dict[int, Any] = {}
+
+    def add(self, one: Interrupts) -> None:
+        if threading.current_thread() is not threading.main_thread():
+            return
+        self._open.append(one)
+        free = [other for other in OTHERS if signal.getsignal(other) == signal.SIG_DFL]
+        for number in (*SIGNALS, *free):
+            if signal.getsignal(number) != self._take:  # a program may have set its own in between
+                self._before[number] = signal.signal(number, self._take)
+
+    def remove(self, one: Interrupts) -> None:
+        if one in self._open:
+            self._open.remove(one)
+        if not self._open and threading.current_thread() is threading.main_thread():
+            self._restore()
+
+    def _restore(self) -> None:
+        for number, handler in self._before.items():
+            if signal.getsignal(number) == self._take:
+                signal.signal(number, handler)
+        self._before = {}
+
+    def _take(self, number: int, frame: FrameType | None) -> None:
+        if not self._open:  # the last was closed in another thread, where no handler can be set
+            self._restore()
+            signal.raise_signal(number)
+            return
+        kept = [one.taken(number) for one in self._open]
+        if not any(kept):
+            _raise(number)
+
+
+_HANDLERS = _Handlers()
 
 
 def _raise(number: int) -> None:
     if number == signal.SIGINT:
         raise KeyboardInterrupt
     raise Terminated(number)
-
-
-class Parent:
-    """The process that started this one, and whether it is still there."""
-
-    def __init__(self) -> None:
-        self._id = os.getppid()
-
-    @property
-    def gone(self) -> bool:
-        """Whether it has died: another process has taken its children over."""
-        return os.getppid() != self._id
 
 
 class OfParent(threading.Thread):
@@ -131,8 +155,7 @@ class OfParent(threading.Thread):
 
     def run(self) -> None:
         """Look until it is over."""
-        parent = Parent()
         while not self.over.wait(PARENT):
-            if parent.gone:
+            if parent_gone():
                 self._gone()
                 return
