@@ -44,7 +44,7 @@ def test_in_steps_it_is_the_run_of_ebac_run_virtual_to_the_bit() -> None:
     steps = run.tail(1001)
     assert len(steps) == 1001
     for name in ("x", "f_env", "f_cmd", "f_applied", "f_meas", "law.beta", "bus.missing"):
-        assert np.array_equal(steps[name], whole[name], equal_nan=True), name
+        assert np.array_equal(steps[name], whole[name][:1001], equal_nan=True), name
     run.stop()
     device.close()
     assert run.done
@@ -117,6 +117,21 @@ def test_no_order_makes_a_step_of_the_force_and_each_is_noted(session: Session) 
         ticks = [tick for tick, _, _ in run._running.changes(0)]
         assert ticks == [2000 + 160 * k for k in range(len(orders))]
         assert not session.fault
+
+
+def test_a_recording_begins_where_it_was_asked_for(session: Session) -> None:
+    """It had the rows from before, as far as the loop still had them."""
+    with session:
+        session.start()
+        session.advance(0.5)
+        begun = session.run.ticks if session.run else 0
+        log = session.record()
+        session.advance(0.3)
+        time.sleep(0.2)
+        recorded = session.stop_recording()
+    trace = ebac.logs.read(log).trace
+    assert trace["tick"][0] == begun > 400
+    assert 300 <= len(trace) == recorded < 310
 
 
 def test_a_recording_has_every_order_with_its_tick(session: Session) -> None:

@@ -481,6 +481,51 @@ def test_a_recorder_writes_every_row_of_a_growing_trace(ring: bool, tmp_path: Pa
     assert_official(tmp_path / "run.mcap", log.trace)
 
 
+def test_an_event_stands_at_the_time_of_its_tick(tmp_path: Path) -> None:
+    """It stood at that of the last row, and was missing in a part of the log."""
+    source = rows_of(jitter=0.1)
+    rows = source.empty_like(2000)
+    with Recorder(rows, tmp_path / "run.mcap", interval=0.001) as recorder:
+        fed(source, rows, 1000)
+        wait_until(lambda: recorder.written == 1000)
+        for tick in (100, 999, 5000):
+            recorder.event("note", "seen", tick=tick)
+    log = read(tmp_path / "run.mcap")
+    t = log.trace["t"]
+    assert [event.t for event in log.events] == [t[100], t[999], t[999]]
+    assert [event.tick for event in read(tmp_path / "run.mcap", stop=0.2).events] == [100]
+
+
+@pytest.mark.parametrize(
+    ("value", "read_as"),
+    [
+        (np.int64(5), 5),
+        (np.float32(1.5), 1.5),
+        (np.bool_(True), True),
+        (np.array([1, 2]), [1, 2]),
+    ],
+)
+def test_a_number_of_numpy_in_an_event_is_a_number(
+    value: Any, read_as: Any, tmp_path: Path
+) -> None:
+    """It ended the recording, and with it the run."""
+    rows = rows_of(0.1)
+    with Recorder(rows, tmp_path / "run.mcap") as recorder:
+        recorder.event("note", "measured", value=value)
+        with pytest.raises(TypeError, match=r"event: value = .* \(object\): a log takes what JSON"):
+            recorder.event("note", "measured", value=object())
+    (event,) = read(tmp_path / "run.mcap").events
+    assert event.values == {"value": read_as}
+
+
+def test_a_recorder_may_begin_with_a_later_row(tmp_path: Path) -> None:
+    rows = rows_of()
+    with Recorder(rows, tmp_path / "run.mcap", first=600) as recorder:
+        pass
+    assert (recorder.written, recorder.lost) == (401, 0)
+    assert read(tmp_path / "run.mcap").trace["tick"][0] == 600
+
+
 def test_what_comes_while_a_chunk_is_written_waits_for_the_next(tmp_path: Path) -> None:
     source = rows_of()
     rows = source.empty_like(2000)

@@ -175,4 +175,4 @@ def test_an_import_loads_nothing_heavy(capsys: pytest.CaptureFixture[str]) -> No
         )
     assert not set(HEAVY) & set(loaded)
     own = {name for name in loaded if name.split(".")[0] == "ebac"}
-    assert own == {"ebac", "ebac._util", "ebac._util.lazy"}
+    assert own == {"ebac", "ebac._util", "ebac._util.lazy", "ebac._util.parent"}

@@ -94,8 +94,9 @@ class Run(RunChanges):
         files: Mapping[str, str],
         sync: float | None = None,
         file: io.FileIO | None = None,
+        first: int = 0,
     ) -> None:
-        """Write the rows to a log from now on, in a separate thread."""
+        """Write the rows from number `first` on to a log, in a separate thread."""
         from ebac.logs import Recorder
 
         self.recorder = Recorder(
@@ -108,6 +109,7 @@ class Run(RunChanges):
             watch=self._parameters.updates.events,
             sync=sync,
             start=time.time() - self._age(),
+            first=first,
             file=file,
         )
 

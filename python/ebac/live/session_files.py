@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import threading
-from datetime import datetime
+from datetime import UTC, datetime
 from pathlib import Path
 
 from ebac.live.session_parts import SessionParts
@@ -25,7 +25,8 @@ class SessionFiles(SessionParts):
             if run.recorder is not None:
                 return run.recorder.path
             path = self._new(".mcap")
-            run.record(path, files={"choices.txt": repr(self.choices)})
+            files = {"choices.txt": repr(self.choices)}
+            run.record(path, files=files, first=run.ticks)
             self.kept.append(path)
             return path
 
@@ -51,6 +52,6 @@ class SessionFiles(SessionParts):
 
     def _new(self, suffix: str) -> Path:
         self.folder.mkdir(parents=True, exist_ok=True)
-        stem = f"live-{datetime.now():%Y%m%d-%H%M%S}"
+        stem = f"live-{datetime.now(UTC):%Y%m%d-%H%M%S}"
         names = (f"{stem}{n}{suffix}" for n in ("", *(f"-{k}" for k in range(1, 1000))))
         return next(self.folder / name for name in names if not (self.folder / name).exists())

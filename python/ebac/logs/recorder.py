@@ -6,6 +6,7 @@ import atexit
 import contextlib
 import errno
 import io
+import json
 import threading
 import time
 import warnings
@@ -67,6 +68,8 @@ class Recorder:
         that happens at the end only: a killed process loses nothing by it, a computer without power does.
     start : float, optional
         When t was 0, in seconds since 1970 (UTC); now, if not given.
+    first : int
+        Number of the first row to write; 0 for all that the loop still has.
     file : FileIO, optional
         What `ebac.logs.writer.new_log` returned for this path: a log that was begun before the loop.
 
@@ -103,6 +106,7 @@ class Recorder:
         interval: float = INTERVAL,
         sync: float | None = None,
         start: float | None = None,
+        first: int = 0,
         file: io.FileIO | None = None,
     ) -> None:
         _check("interval", interval, 1e-3, 10)
@@ -122,7 +126,7 @@ class Recorder:
         none = row_views(rows, np.empty(0, np.uint8))
         layout = Layout.of(none, column_infos(rows))
         self._writer = LogWriter(path, layout=layout, about=about, file=file)
-        self._seen = 0
+        self._seen = first
         self._last: tuple[int, float, int] = (-1, 0.0, 0)  # tick, t, fault of the last row
         self._waiting: list[Event] = []
         self._lock = threading.Lock()
@@ -154,7 +158,8 @@ class Recorder:
         message : str
             What happened, in words.
         tick : int, optional
-            When; the last row the recorder has seen, if not given.
+            When; the last row the recorder has seen, if not given. Its time is that of the row, if the loop still has
+            it.
         **values
             Numbers and words that belong to it, the unit in the key.
 
@@ -162,13 +167,27 @@ class Recorder:
         ------
         ValueError
             When the recorder is closed.
+        TypeError
+            For a value that JSON has not.
         """
+        values = {name: _plain(name, value) for name, value in values.items()}
         if self._ends.is_set():
             raise ValueError(f"{self.path}: the recorder is closed; note events while it runs")
-        last, t, _ = self._last
-        at = last if tick is None else tick
+        at, t, _ = self._last
+        if tick is not None:
+            at, t = tick, self._time_of(tick)
         with self._lock:
             self._waiting.append(Event(kind=kind, message=message, tick=at, t=t, values=values))
+
+    def _time_of(self, tick: int) -> float:
+        """Return the time of a tick [s], as near as the rows in memory tell it."""
+        seen, (last, t, _) = self._seen, self._last
+        earliest = max(self._rows.first, seen - 1 - max(0, last - tick))
+        _, raw = self._rows.copy(earliest, seen)
+        rows = row_views(self._rows, raw)
+        if not len(rows["t"]):
+            return t
+        return float(rows["t"][int(np.abs(rows["tick"] - tick).argmin())])
 
     def close(self) -> None:
         """Write what is left and the summary, and close the file.
@@ -289,6 +308,19 @@ class Recorder:
         return (
             f"<Recorder of {self.path}: {state}, {plural(self.written, 'row')}, {self.lost} lost>"
         )
+
+
+def _plain(name: str, value: Any) -> Any:
+    """Return a value as JSON has it, those of NumPy as Python's."""
+    plain = value.tolist() if isinstance(value, (np.generic, np.ndarray)) else value
+    try:
+        json.dumps(plain)
+    except (TypeError, ValueError) as error:
+        kind = type(value).__name__
+        raise TypeError(
+            f"event: {name} = {value!r} ({kind}): a log takes what JSON has ({error})"
+        ) from None
+    return plain
 
 
 def _nothing() -> Sequence[Event]:
