@@ -7,9 +7,9 @@ from pathlib import Path
 import pytest
 import typer
 
-from ebac._util.atomic_folder import filled
+from ebac._util.atomic_folder import claimed, filled
 from ebac.cli import output
-from ebac.cli.files import free_folder
+from ebac.cli.files import claims, free_folder, own_folder
 
 
 @pytest.mark.parametrize(
@@ -120,7 +120,25 @@ def test_the_draft_of_a_killed_command_is_removed_and_that_of_a_running_one_is_n
         for process in both:
             process.kill()
             process.communicate()
-    assert free_folder(out, force=False) == out  # what was killed has left nothing to keep
-    with filled(out):
-        pass
-    assert not list(out.iterdir())
+    with claims():
+        assert free_folder(out, force=False) == out  # what was killed has left nothing to keep
+        with filled(out):
+            pass
+    assert not out.exists()
+
+
+def test_two_commands_at_once_write_to_folders_of_their_own(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Both chose a name while neither had written: the one that ended last was all that was left."""
+    monkeypatch.chdir(tmp_path)
+    Path("ebac-wall").mkdir()
+    with claims(), claimed(Path("ebac-wall-2")):
+        assert own_folder("ebac-wall") == Path("ebac-wall")
+        assert own_folder("ebac-wall") == Path("ebac-wall-3")
+        with pytest.raises(typer.Exit):
+            free_folder(Path("ebac-wall-2"), force=False)
+        with filled("ebac-wall") as draft:
+            (draft / "a").touch()
+    assert [path.name for path in tmp_path.iterdir()] == ["ebac-wall"]
+    assert [path.name for path in Path("ebac-wall").iterdir()] == ["a"]

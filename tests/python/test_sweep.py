@@ -319,6 +319,21 @@ def test_a_folder_of_another_sweep_is_refused(tmp_path: Path) -> None:
     assert_same_bits(fresh, sweep(scenarios(3), "eba", out=out))
 
 
+@pytest.mark.parametrize("resume", [True, False])
+def test_a_folder_that_another_sweep_writes_to_is_refused(tmp_path: Path, resume: bool) -> None:
+    """Its bundles were mixed with those of the other, and a resumed sweep had numbers of another law."""
+    out = tmp_path / "sweep"
+
+    def other(done: int, total: int) -> None:
+        with pytest.raises(ValueError, match="another sweep is writing to it"):
+            sweep(scenarios(3), "tca", out=out, resume=resume)
+
+    first = sweep(
+        scenarios(3), "eba", out=out, progress=lambda done, total: done and other(done, total)
+    )
+    assert_same_bits(first, sweep(scenarios(3), "eba", out=out))
+
+
 def test_a_law_in_python_is_known_again_by_its_values(tmp_path: Path) -> None:
     out = tmp_path / "sweep"
     first = sweep(scenarios(2, seconds=0.1), Spring(0.5), out=out)

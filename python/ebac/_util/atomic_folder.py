@@ -19,10 +19,43 @@ def is_abandoned(path: Path) -> bool:
     if not path.name.startswith(_prefix()):
         return False
     try:
-        with _locked(path, wait=False):
+        with locked(path, wait=False):
             return True
     except NO_LOCKS:  # or it is at work
         return False
+
+
+def has_files(folder: Path) -> bool:
+    """Return whether a folder has files, or another process is about to write some."""
+    return folder.is_dir() and not all(map(is_abandoned, folder.iterdir()))
+
+
+@contextmanager
+def claimed(folder: Path) -> Iterator[bool]:
+    """Give whether a folder had no files, and keep it from others; it is made, and removed where it stays empty.
+
+    Raises
+    ------
+    OSError
+        When it is a file or cannot be made.
+    """
+    folder.mkdir(parents=True, exist_ok=True)
+    with ExitStack() as claim:
+        claim.callback(_remove_empty, folder)
+        with ExitStack() as looking:
+            with suppress(*NO_LOCKS):
+                looking.enter_context(locked(folder))
+            free = not has_files(folder)
+            if free:
+                mark = claim.enter_context(TemporaryDirectory(prefix=_prefix(), dir=folder))
+                with suppress(*NO_LOCKS):
+                    claim.enter_context(locked(Path(mark)))
+        yield free
+
+
+def _remove_empty(folder: Path) -> None:
+    with suppress(OSError):  # not empty
+        folder.rmdir()
 
 
 @contextmanager
@@ -44,8 +77,7 @@ def filled(out: str | Path) -> Iterator[Path]:
                 file.replace(target / file.name)
     except BaseException:
         if new:
-            with suppress(OSError):  # not empty
-                target.rmdir()
+            _remove_empty(target)
         raise
 
 
@@ -55,17 +87,26 @@ def _draft(target: Path) -> Iterator[Path]:
     with ExitStack() as stack:
         with ExitStack() as making:
             with suppress(*NO_LOCKS):  # nothing is removed
-                making.enter_context(_locked(target))
+                making.enter_context(locked(target))
                 for old in filter(is_abandoned, target.iterdir()):
                     shutil.rmtree(old, ignore_errors=True)
             draft = Path(stack.enter_context(TemporaryDirectory(prefix=_prefix(), dir=target)))
             with suppress(*NO_LOCKS):
-                stack.enter_context(_locked(draft))
+                stack.enter_context(locked(draft))
         yield draft
 
 
 @contextmanager
-def _locked(folder: Path, *, wait: bool = True) -> Iterator[None]:
+def locked(folder: Path, *, wait: bool = True) -> Iterator[None]:
+    """Lock a folder against other processes.
+
+    Raises
+    ------
+    BlockingIOError
+        When it is locked, and this shall not wait.
+    OSError, ImportError
+        Of `NO_LOCKS`.
+    """
     import fcntl  # not on Windows
 
     number = os.open(folder, os.O_RDONLY)

@@ -14,7 +14,7 @@ from typer.core import TyperCommand, TyperGroup
 
 from ebac._util.arguments import did_you_mean
 from ebac._util.remarks import silent
-from ebac.cli import by_option, interrupts, options, output, wrong_input
+from ebac.cli import by_option, files, interrupts, options, output, wrong_input
 
 #: Panels of the options of a scenario.
 SCENARIO = (options.WALL, options.HAND, options.DEVICE, options.RUN)
@@ -50,7 +50,7 @@ class Command(TyperCommand):
         """Run the command."""
         by_option.current.clear()
         by_option.current.update({p.name: wrong_input.option_name(p) for p in self.params})
-        with interrupts.interruptible(), silent(), _faults_in_one_line():
+        with files.claims(), interrupts.interruptible(), silent(), _faults_in_one_line():
             return super().invoke(ctx)
 
 

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
+from itertools import count
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, TypeAlias
 
@@ -185,17 +187,38 @@ class ResultOptions(FigureOptions):
             output.list_files(folder, files)
 
 
+#: Folders that no other command may take until this one has ended.
+_claims = ExitStack()
+
+
+@contextmanager
+def claims() -> Iterator[None]:
+    """Let go of the folders of a command at its end."""
+    with _claims:
+        yield
+
+
+def _claim(folder: Path, where: str) -> bool:
+    """Return whether a folder had no files, and is this command's now."""
+    from ebac._util.atomic_folder import claimed
+
+    with output.writing(where, "folder"):
+        return _claims.enter_context(claimed(folder))
+
+
 def free_folder(out: Path, *, force: bool) -> Path:
     """Return the folder of --out; one that has files ends the command, unless forced."""
-    if not force and _has_files(out):
+    if not force and not _claim(out, f"--out {out}"):
         output.fail(f"--out {out}: has files; give a new folder, or --force to write into this one")
     return out
 
 
 def _resumed(out: Path, command: str, runs: str) -> Path:
     """Return a folder that holds such runs, or one to begin in; one that has other files ends the command."""
+    from ebac._util.atomic_folder import has_files
+
     if not (out / runs / "sweep.json").is_file():
-        if _has_files(out):
+        if has_files(out):
             output.fail(
                 f"--resume: {out} has files but no runs of `ebac {command}` ({runs}/sweep.json) to continue; give the "
                 f"folder of the stopped {command} with --out, or leave --resume out to start in a new folder"
@@ -209,11 +232,10 @@ def own_folder(name: str, *, last: bool = False) -> Path:
     if last:
         there = [path for path in Path().glob(f"{name}*") if _number(path, name) and path.is_dir()]
         return max(there, key=lambda path: _number(path, name), default=Path(name))
-    number = 1
-    while (path := Path(name if number == 1 else f"{name}-{number}")).exists():
-        if path.is_dir() and not _has_files(path):
+    for number in count(1):
+        path = Path(name if number == 1 else f"{name}-{number}")
+        if (path.is_dir() or not path.exists()) and _claim(path, f"{path}"):
             break
-        number += 1
     return path
 
 
@@ -229,12 +251,6 @@ def free_file(file: Path) -> Path:
 def _number(path: Path, name: str) -> int:
     found = re.fullmatch(rf"{re.escape(name)}(?:-(\d+))?", path.name)
     return int(found[1] or 1) if found else 0
-
-
-def _has_files(folder: Path) -> bool:
-    from ebac._util.atomic_folder import is_abandoned
-
-    return folder.is_dir() and not all(map(is_abandoned, folder.iterdir()))
 
 
 def new_file(option: str, file: Path, *, force: bool) -> Path:

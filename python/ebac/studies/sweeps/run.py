@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from concurrent.futures import Executor
+from contextlib import AbstractContextManager, nullcontext
 from pathlib import Path
 from types import NoneType
 from typing import Any, TypeAlias
@@ -113,7 +114,7 @@ def sweep(
         ]
     job = Job(runs, limits or RunLimits(), threads, progress or (lambda done, total: None))
     size = bundle or _bundle(len(runs), shared=executor is not None, stored=out is not None)
-    store = None
+    store: AbstractContextManager[Store | None] = nullcontext()
     if out is not None:
         about = {
             "runs": len(runs),
@@ -130,8 +131,9 @@ def sweep(
     }
     head |= {name: np.tile(values, len(named)) for name, values in swept(scenarios).items()}
     try:
-        for part, columns in job.work(size, store, executor):
-            job.keep(part, columns)
+        with store as folder:
+            for part, columns in job.work(size, folder, executor):
+                job.keep(part, columns)
     except KeyboardInterrupt:
         raise SweepInterrupted(SweepResult(head | job.columns)) from None
     return SweepResult(head | job.columns)

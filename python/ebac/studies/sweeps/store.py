@@ -5,12 +5,14 @@ from __future__ import annotations
 import hashlib
 import json
 from collections.abc import Sequence
+from contextlib import ExitStack
 from pathlib import Path
-from typing import Any
+from typing import Any, Self
 
 import numpy as np
 
 from ebac._core import RunLimits
+from ebac._util.atomic_folder import NO_LOCKS, locked
 from ebac._util.code_print import code_print
 from ebac.studies.sweeps.measure import Columns, Run, empty
 
@@ -50,15 +52,39 @@ def _code(part: Any) -> str:
 class Store:
     """The folder of one sweep.
 
+    A context manager: until its end no other sweep may use the folder.
+
     Raises
     ------
     ValueError
-        When the folder holds another sweep and may not be started anew.
+        When the folder holds another sweep and may not be started anew, or another sweep is writing to it.
     """
 
     def __init__(self, folder: str | Path, about: dict[str, Any], *, resume: bool) -> None:
         self.folder = Path(folder)
         self.folder.mkdir(parents=True, exist_ok=True)
+        with ExitStack() as stack:
+            self._lock(stack)
+            self._begin(about, resume=resume)
+            self._locked = stack.pop_all()
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *error: object) -> None:
+        self._locked.close()
+
+    def _lock(self, stack: ExitStack) -> None:
+        try:
+            stack.enter_context(locked(self.folder, wait=False))
+        except BlockingIOError:
+            raise ValueError(
+                f"{self.folder}: another sweep is writing to it; give another folder, or wait for its end"
+            ) from None
+        except NO_LOCKS:
+            pass
+
+    def _begin(self, about: dict[str, Any], *, resume: bool) -> None:
         manifest = self.folder / MANIFEST
         found = json.loads(manifest.read_text(encoding="utf-8")) if manifest.exists() else None
         if found is not None and resume and found != about:
