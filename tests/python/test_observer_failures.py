@@ -282,3 +282,31 @@ def test_the_force_loop_rests_while_readings_contradict_the_model() -> None:
     trace = ebac.simulate(ebac.Scenario(device=device, hand=hand, seconds=30), "ebac")
     assert (trace["est.fallback"] == int(ebac.Fallback.MODEL)).mean() > 0.5
     assert trace["true.energy"].min() > -12e-3  # J; the reserve on the encoder alone is 10 mJ
+
+
+def test_a_hand_that_shakes_within_a_count_is_not_taken_for_a_held_device() -> None:
+    """The reading stood, so the model was stopped and its force given to D: it fell back and 2.2 mJ were drawn."""
+    shakes = ebac.Sine(centre=0.0515, amplitude=0.949, frequency=326.6, phase=2.42)
+    hand = ebac.Hand(mass=0.02, damping=13.3, stiffness=20.0, path=shakes)
+    trace = ebac.simulate(BASE.replace(hand=hand, seconds=4.0), "ebac")
+    assert (trace["est.fallback"] == 0).all()
+    assert trace["true.energy"].min() > -1e-3
+
+
+@pytest.mark.parametrize("lag", [0.0, 2e-4])
+def test_a_sensor_without_a_filter_keeps_the_wall(lag: float) -> None:
+    """The readings show what a heavy hand gives back of the motor's step when it is over: it swung and fell back."""
+    device = ebac.Device(
+        sensor=ebac.ForceSensor(noise=0.03, lag=lag), encoder=ebac.Encoder(counts_per_turn=8192)
+    )
+    run = ebac.Scenario(
+        device=device,
+        hand=ebac.Hand(mass=1.0, damping=2.0, stiffness=300.0),
+        environment=ebac.Wall(stiffness=2e4),
+        timing=ebac.Timing(delay=2),
+    )
+    trace = ebac.simulate(run, "ebac")
+    assert (trace["est.fallback"] == 0).all()
+    met = ebac.contact(trace)
+    assert met.exact
+    assert met.still

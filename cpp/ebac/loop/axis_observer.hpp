@@ -73,10 +73,11 @@ class AxisObserver {
     noise_ = SensorNoise(params_.force_noise);
     const double held = noise_.exceeded_by(std::abs(force)) ? force : 0;
     x_ = reading_ = x;
-    pace_ = unread_ = stands_ = astray_ = 0;
+    pace_ = unread_ = stands_ = leans_ = astray_ = 0;
     u_ = v_ = 0;
     disturbance_ = weight_;
     motor_ = MotorForce(params_.current_lag, held + weight_);
+    shown_ = shown_before_ = motor_.shown();
     measured_ = before_last_ = held;
     trend_ = ForceTrend(held);
     contradicted_ = 0;
@@ -114,8 +115,8 @@ class AxisObserver {
     if (dt != dt_ || records_.started()) set_tick(dt);
     doubt(seen.age > params_.force_age, measured);
     const double motor = motor_.hold(strength_.of(applied));  // G f
-    // The mean over the interval, of the parabola through the last three readings.
-    const double force = (5 * measured + 8 * measured_ - before_last_) * (1.0 / 12) + disturbance_;
+    double force = mean_of(measured, measured_, before_last_) + disturbance_;
+    if (echo_ > 0) force += echo_ * missed_echo(motor);
     const double bend = measured - 2 * measured_ + before_last_;
     noise_.hear(std::abs(bend));
     before_last_ = measured_;
@@ -183,16 +184,34 @@ class AxisObserver {
   static constexpr double kDithered =
       0.09;                                // 1, (w dt)^2 from which noise moves x over whole counts
   static constexpr double kStands = 0.01;  // s, so long stands the reading of a held device
-  static constexpr double kHolds = 2e-3;   // s, in which D takes what would move it
-  static constexpr double kMoving = 0.01;  // m/s, from here on the device moves
-  static constexpr double kSlow = 2.5e-3;  // m/s, from here on a quiet sensor counts as any other
-  static constexpr double kQuiet = 0.5;    // of the declared noise: less is a quiet sensor
-  static constexpr double kRests = 0.05;   // s, until it counts as resting
-  static constexpr double kLeast = 0.2;    // of the share within a count, without noise
-  static constexpr double kMemory = 0.05;  // s, of the contradictions
-  static constexpr double kBears = 0.15;   // share of ticks that may contradict
-  static constexpr double kLearn = 2;      // from here to 1/2 more, all gains rise to those of w
+  static constexpr double kLeans = 1.5e-3;  // s, so long the model would leave it on one side
+  static constexpr double kHolds = 2e-3;    // s, in which D takes what would move it
+  static constexpr double kMoving = 0.01;   // m/s, from here on the device moves
+  static constexpr double kSlow = 2.5e-3;   // m/s, from here on a quiet sensor counts as any other
+  static constexpr double kQuiet = 0.5;     // of the declared noise: less is a quiet sensor
+  static constexpr double kRests = 0.05;    // s, until it counts as resting
+  static constexpr double kLeast = 0.2;     // of the share within a count, without noise
+  static constexpr double kMemory = 0.05;   // s, of the contradictions
+  static constexpr double kBears = 0.15;    // share of ticks that may contradict
+  static constexpr double kLearn = 2;       // from here to 1/2 more, all gains rise to those of w
+  static constexpr double kEcho = 0.9;      // of a sensor without lag
+  static constexpr double kFiltered = 0.4;  // of a tick: a lag from which the parabola is right
   static constexpr double kPatience = 3.5e-3;  // s, half a period of a cable's resonance of 140 Hz
+
+  /// The mean over the interval, of the parabola through three values, the last at its end [N].
+  static double mean_of(double now, double last, double before) EBAC_RT {
+    return (5 * now + 8 * last - before) * (1.0 / 12);
+  }
+
+  /// What readings miss of a force that echoes the motor's: a hand's mass, which the motor pushes, too. A sensor without
+  /// a filter shows the motor's step when it is over, and the parabola puts it too late.
+  double missed_echo(double motor) EBAC_RT {
+    const double shown = motor_.shown();
+    const double missed = motor - mean_of(shown, shown_, shown_before_);
+    shown_before_ = shown_;
+    shown_ = shown;
+    return missed;
+  }
 
   double acceleration() const EBAC_RT {
     const double pull = measured_ + disturbance_ - damping_ * u_ - motor_.shown();
@@ -241,13 +260,15 @@ class AxisObserver {
   }
 
   /// Keeps x by the reading. A device whose reading stands while the model would `pull` it on [N] is held, as by more
-  /// friction than is known: the model stops, and D takes the pull.
+  /// friction than is known: the model stops, and D takes the pull. A hand that shakes within a count turns sooner.
   void keep_place(double reading, double pull) EBAC_RT {
     const double room = kCell * params_.count;
     const double beyond = x_ - std::clamp(x_, reading - room, reading + room);
     x_ -= beyond;
     stands_ = std::abs(reading - reading_) < 0.5 * params_.count ? stands_ + unread_ : 0;
-    if (stands_ < kStands || beyond * u_ <= 0) return;
+    if (beyond * leans_ <= 0) leans_ = 0;
+    if (beyond != 0) leans_ += std::copysign(unread_, beyond);
+    if (stands_ < kStands || beyond * u_ <= 0 || std::abs(leans_) < kLeans) return;
     if (pull * u_ > 0) disturbance_ -= holding_ * pull;
     u_ = 0;
   }
@@ -291,12 +312,16 @@ class AxisObserver {
   double disturbance_ = 0;  // N
   double weight_ = 0;       // N, of the device, in it
   bool learns_ = false;
-  double measured_ = 0;     // N
-  double before_last_ = 0;  // N, the reading before
+  double echo_ = 0;          // share of the motor's force that a hand's mass gives back
+  double shown_ = 0;         // N, of the motor at the last reading, kept where there is an echo
+  double shown_before_ = 0;  // N, at the reading before
+  double measured_ = 0;      // N
+  double before_last_ = 0;   // N, the reading before
   double contradicted_ = 0;
   double reading_ = 0;  // m, the last one
   double pace_ = 0;     // m/s, mean velocity between the last two
   double unread_ = 0;   // s, since the last one
+  double leans_ = 0;    // s, for which x would leave the reading, with the sign of the side
   double stands_ = 0;   // s, for which the reading has not changed
   double astray_ = 0;   // s, that v was beyond what the readings prove, with the sign of its error
   double dt_ = 0;       // s, argument of the last set_tick
