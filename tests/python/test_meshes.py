@@ -11,6 +11,7 @@ import pytest
 import ebac
 from ebac.metrics import world_contact
 from ebac.worlds import Body, Elastic, HeightField, Mesh, Placed, World, distance, preset
+from ebac.worlds.presets import MESH_SIZE
 
 pytestmark = pytest.mark.skipif(
     not (find_spec("trimesh") and find_spec("igl")), reason="needs trimesh and libigl"
@@ -194,3 +195,33 @@ def test_the_file_of_a_mesh_is_named_from_a_configuration(cube: Path) -> None:
     file.write_text(f'{example[:begin]}[environment]\ntype = "World"\n{body}\n{example[end:]}')
     world = ebac.hardware.Configuration.load(file).environment
     assert world.bodies[0].solid.file == str(cube)
+
+
+@pytest.mark.parametrize("turned", range(4))
+def test_a_mesh_is_met_in_the_middle_of_its_front_whatever_the_order_of_its_vertices(
+    tmp_path: Path, turned: int
+) -> None:
+    """One of the four corners of the front of a cube stood at the origin, and the handle passed it by."""
+    import trimesh
+
+    box = trimesh.creation.box((0.04, 0.04, 0.04))
+    order = np.roll(np.arange(8), 2 * turned)
+    file = tmp_path / "cube.ply"
+    trimesh.Trimesh(box.vertices[order], np.argsort(order)[box.faces], process=False).export(file)
+    solid = preset(f"mesh:{file}").bodies[0].solid
+    assert isinstance(solid, Placed)
+    assert solid.at == pytest.approx((MESH_SIZE / 2, 0.0, 0.0), abs=1e-9)
+
+
+def test_a_mesh_with_a_hole_in_its_front_is_met_at_its_edge(tmp_path: Path) -> None:
+    import trimesh
+
+    ring = trimesh.creation.annulus(r_min=0.01, r_max=0.02, height=0.01)
+    ring.apply_transform(trimesh.transformations.rotation_matrix(np.pi / 2, [0, 1, 0]))
+    file = tmp_path / "ring.ply"
+    ring.export(file)
+    solid = preset(f"mesh:{file}").bodies[0].solid
+    assert isinstance(solid, Placed)
+    x, y, z = solid.at
+    assert x > 0
+    assert np.hypot(y, z) >= 0.25 * MESH_SIZE - 1e-9

@@ -186,7 +186,8 @@ def test_every_law_with_something_to_tune_is_in_the_tables_for_three_delays() ->
         assert all(row["observer"] == (ending == "-tuned-observer") for row in rows)
         for name in tuning.RANGES:
             assert [row["delay"] for row in rows if row["law"] == name] == [0, 1, 2]
-    assert set(tuned_laws()) == {f"{name}{end}" for name in tuning.RANGES for end in TABLES}
+    searched = {f"{name}{end}" for name in tuning.RANGES for end in TABLES}
+    assert set(tuned_laws()) == {*searched, "lag-compensator-tuned-stiff-observer"}
     assert not set(tuned_laws()) & set(ebac.LAWS)
 
 
@@ -200,6 +201,16 @@ def test_a_tuned_law_is_the_law_with_the_parameters_of_the_table(
     law = design(f"{row['law']}{ending}", ebac.Device(), timing)
     assert law == design(row["law"], ebac.Device(), timing, **row["changes"])
     assert row["cost"] <= row["default_cost"]
+
+
+def test_a_law_that_was_searched_for_stiffness_has_the_parameters_of_its_script() -> None:
+    name = "lag-compensator-tuned-stiff-observer"
+    found = {"stiffness": 31500.0, "virtual_damping": 56.2, "recovery_time": 1.69}
+    for delay in (0, 1, 2):
+        assert tuned(name, delay) == ("lag-compensator", found)
+    trace = ebac.simulate(ebac.Scenario(seconds=0.1), name)
+    assert trace.scenario is not None
+    assert trace.scenario.observer == "every-law"
 
 
 def test_a_delay_that_was_not_searched_takes_the_nearest() -> None:

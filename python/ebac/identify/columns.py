@@ -28,14 +28,14 @@ NAMES: dict[str, tuple[str, ...]] = {
     ),
     "force": (
         *("f_meas", "f_meas_0", "force", "f", "fx", "fy", "fz", "f_hand", "fh", "f_sensor", "ft"),
-        *("force_x", "kraft"),
+        *("force_x", "kraft", "hand_force", "handle_force", "handkraft"),
         *("grip_force", "tau_meas", "tau_hand", "hand_torque", "torque_hand", "torque_sensor"),
         *("torque", "tau", "tau_ext"),
     ),
     "motor": (
         *("f_applied", "f_applied_0", "motor", "motor_force", "f_motor", "actuator_force"),
         *("motor_torque", "torque_motor", "tau_motor", "tau_m", "tau_applied", "actuator_torque"),
-        *("motor_current", "current", "i_motor"),
+        *("motor_current", "current", "i_motor", "motorkraft"),
     ),
     "desired": (
         *("f_env", "f_env_0", "f_desired", "desired", "fd", "f_d"),

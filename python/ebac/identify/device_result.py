@@ -15,6 +15,7 @@ from ebac.identify import motor_check
 from ebac.identify.device_problem import Drive
 from ebac.identify.estimate import Estimate
 from ebac.identify.intervals import Z95
+from ebac.identify.missing import left_for
 from ebac.identify.parameters import BOUNDS
 from ebac.identify.recording import Recording
 from ebac.identify.signals import rough
@@ -122,8 +123,10 @@ class DeviceResult:
         turned = max(self.other_signs, key=lambda key: self.other_signs[key], default="")
         wrong = [f"This is no device: {'; '.join(self.impossible)}."] if self.impossible else []
         if wrong and self.recording.force is None:
+            left = left_for("force", self.recording) if self.recording.unread else ""
             wrong.append(
-                f"The log has no {self._effort} of the hand: nobody may touch the handle while the motor moves it."
+                f"The log has no {self._effort} of the hand{left}. Without one nobody may touch the handle while the "
+                "motor moves it."
             )
         elif wrong:
             wrong += [*self._noisy(), *motor_check.doubts([self.recording])]

@@ -1,4 +1,4 @@
-"""Laws whose parameters `ebac tune` found, by names such as "tca-damped-tuned"."""
+"""Laws whose parameters a search found, `ebac tune` or another, by names such as "tca-damped-tuned"."""
 
 from __future__ import annotations
 
@@ -33,7 +33,10 @@ def tuned(name: str, delay: int) -> tuple[str, dict[str, Any]]:
 def tuned_text(name: str) -> str:
     """Return what a law of `tuned_laws` is, in a sentence without its full stop."""
     law, _, end = name.partition("-tuned")
-    text = f"{name} is {law} with the parameters that `ebac tune` found for the reference device at 1 kHz"
+    found = "that `ebac tune` found"
+    if name.endswith(_STIFF):
+        found = "of a search for walls that are quiet, in time and stiff on impact,"
+    text = f"{name} is {law} with the parameters {found} for the reference device at 1 kHz"
     return text + (", acting on the observer's estimate" if end else "")
 
 
@@ -50,12 +53,12 @@ def on_its_observer(scenario: Scenario, law: AnyLaw) -> Scenario:
     Raises
     ------
     ValueError
-        For a law "...-tuned-observer" where the scenario turns the observer off, or the device has no force sensor.
+        For a law "...-observer" where the scenario turns the observer off, or the device has no force sensor.
     """
     name = getattr(law, "law", law)  # of a Variant, too
-    if not isinstance(name, str) or not name.endswith(_OBSERVED) or name not in tuned_laws():
+    if not isinstance(name, str) or name not in tuned_laws() or not name.endswith("-observer"):
         return scenario
-    instead = name.removesuffix("-observer")
+    instead = f"{name.partition('-tuned')[0]}-tuned"
     if not scenario.device.sensor.fitted:
         raise ValueError(
             f"{name}: acts on the estimate of the state observer, which needs a force sensor, and the device has none; "
@@ -72,10 +75,14 @@ def on_its_observer(scenario: Scenario, law: AnyLaw) -> Scenario:
     return scenario.replace(observer=own and own.replace(every_law=True))
 
 
-#: How the names of laws end that were tuned for the observer.
-_OBSERVED = "-tuned-observer"
-#: What `ebac tune` found, by the ending of the laws' names.
-_TUNED = {"-tuned": "tuned_rivals.json", _OBSERVED: "tuned_rivals_observer.json"}
+#: How the name of a law ends that was searched for stiffness on impact as well.
+_STIFF = "-tuned-stiff-observer"
+#: What searches found, by the ending of the laws' names: `ebac tune`, and docs/figures/stiff_rival.py.
+_TUNED = {
+    "-tuned": "tuned_rivals.json",
+    "-tuned-observer": "tuned_rivals_observer.json",
+    _STIFF: "tuned_stiff_observer.json",
+}
 
 
 @cache

@@ -22,7 +22,7 @@ from ebac._core import (
     Torus,
 )
 from ebac._util.arguments import require, unknown
-from ebac._util.arrays import length
+from ebac._util.arrays import Values, length
 from ebac.worlds.height_field import HeightField
 from ebac.worlds.mesh import Mesh
 from ebac.worlds.solids import Cavity, Difference, Placed, Solid, Textured, Tube, Union
@@ -150,7 +150,7 @@ def preset(
     given = {name: value for name, value in surface.items() if value is not None}
     material: Any = Elastic(**{"stiffness": 10e3, "damping": 0.0} | given)
     if kind == "mesh" and colon:
-        solid = _leftmost_at_origin(Mesh(file, size=MESH_SIZE))
+        solid = _front_at_origin(Mesh(file, size=MESH_SIZE))
     else:
         if kind not in PRESETS or colon:
             raise ValueError(unknown(f"world {name!r}", name, [*PRESETS, "mesh:FILE"], "world"))
@@ -168,7 +168,28 @@ def preset(
     return World(Body(solid=solid, material=material, friction=friction))
 
 
-def _leftmost_at_origin(mesh: Mesh) -> Placed:
-    vertices = mesh.surface().vertices
-    x, y, z = vertices[vertices[:, 0].argmin()]
-    return Placed(mesh, (-float(x), -float(y), -float(z)))
+def _front_at_origin(mesh: Mesh) -> Placed:
+    """Return a mesh with the middle of its front at the origin, seen along +x; a vertex of it where that is a hole."""
+    surface = mesh.surface()
+    vertices = surface.vertices
+    front = vertices[vertices[:, 0] < vertices[:, 0].min() + 1e-6 * np.ptp(vertices[:, 0])]
+    place = np.unique(front, axis=0).mean(axis=0)
+    met = _first_on_line(vertices[surface.faces], place[1:])
+    place = front[0] if met is None else np.array([met, *place[1:]])
+    x, y, z = (-place).tolist()
+    return Placed(mesh, (x, y, z))
+
+
+def _first_on_line(corners: Values, through: Values) -> float | None:
+    """Return where a line along x first meets triangles, shape (n, 3, 3); None where it meets none."""
+    a, b, c = (corners[:, i, 1:] - through for i in range(3))
+    shares = np.stack([_cross(b, c), _cross(c, a), _cross(a, b)], axis=1)
+    total = shares.sum(axis=1, keepdims=True)
+    flat = np.abs(total[:, 0]) > 0  # not seen edge on
+    weights = shares[flat] / total[flat]
+    x = (weights * corners[flat, :, 0]).sum(axis=1)[(weights >= -1e-9).all(axis=1)]
+    return float(x.min()) if len(x) else None
+
+
+def _cross(one: Values, two: Values) -> Values:
+    return np.asarray(one[:, 0] * two[:, 1] - one[:, 1] * two[:, 0])

@@ -115,8 +115,9 @@ def _static(result: DeviceResult) -> list[str]:
         return []
     static = result.compensation
     carried = (
-        f" The weight is carried with Mechanics(gravity={result.gravity:.5g} m/s^2), along "
-        f"{'+x' if result.gravity > 0 else '-x'}."
+        f" Weight and gravity_mass are carried along {'+x' if result.gravity > 0 else '-x'}: Mechanics(gravity="
+        f"{result.gravity:.5g} m/s^2). The simulated device weighs what its handle_mass does: gravity = weight / "
+        "handle_mass gives it the weight that was found."
         if static.gravity_mass > 0
         else ""
     )

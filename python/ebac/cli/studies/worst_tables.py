@@ -57,16 +57,27 @@ def show_one(found: Worst, evaluations: int) -> None:
 
 
 def _drawn(found: Worst, energy: float) -> str:
+    text = _joules(energy)
+    return f"[red]{text}[/]" if found.reserve is not None and energy > found.reserve else text
+
+
+def _joules(energy: float) -> str:
+    """Return an energy that was drawn; a run ends where it has drawn as much as is counted."""
+    from ebac._core import RunLimits
     from ebac._util import formatting
 
-    text = formatting.quantity(energy, "J")
-    return f"[red]{text}[/]" if found.reserve is not None and energy > found.reserve else text
+    most = RunLimits().energy
+    return (
+        f"> {formatting.quantity(most, 'J')}"
+        if energy >= most
+        else formatting.quantity(energy, "J")
+    )
 
 
 def _verdict(found: Worst, top: WorstHand) -> str:
     from ebac._util import formatting
 
-    drawn, longer = (formatting.quantity(e, "J") for e in (top.energy_J, top.long_energy_J))
+    drawn, longer = map(_joules, (top.energy_J, top.long_energy_J))
     drawn = f"It draws {drawn} in {top.scenario.seconds:g} s and {longer} in 5 min"
     if found.reserve is None:
         return f"{drawn}; {found.law} has no reserve."
