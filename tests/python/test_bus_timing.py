@@ -1,6 +1,7 @@
 """The time a bus takes: exact lengths of frames against another way to count them, arbitration, errors, verdicts."""
 
 import dataclasses
+from typing import Any
 
 import pytest
 from hypothesis import given
@@ -112,3 +113,9 @@ def test_the_command_judges() -> None:
         done = CliRunner().invoke(app, ["drive", "timing", "--ticks", "50", *words])
         assert done.exit_code == code, done.output
         assert "Simulation. 1000 kbit/s, load" in " ".join(done.output.split())
+
+
+@pytest.mark.parametrize("broken", [0, -1, 99, "x"])
+def test_a_node_that_is_not_there_cannot_be_broken(broken: Any) -> None:
+    with pytest.raises(ValueError, match=r"broken = .*: must be the id of a node: 1, 2"):
+        drives.bus_timing(network(), broken=broken, ticks=10)

@@ -1,5 +1,6 @@
 """Help texts: they name what a command does by default, and are whole in 80 columns."""
 
+import os
 import subprocess
 import sys
 from collections.abc import Iterator
@@ -80,3 +81,13 @@ def test_names_that_an_argument_takes_are_completed() -> None:
         "png,png",
         "png,pdf",
     ]
+
+
+def test_help_is_printed_where_the_output_has_no_bullets() -> None:
+    """It ended in a traceback."""
+    environment = {**os.environ, "PYTHONIOENCODING": "latin-1"}
+    done = subprocess.run(
+        [sys.executable, "-m", "ebac", "map", "--help"],
+        env=environment, capture_output=True, check=False,
+    )  # fmt: skip
+    assert (done.returncode, done.stderr) == (0, b"")

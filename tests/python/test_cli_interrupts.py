@@ -123,6 +123,18 @@ def test_sigterm_is_taken_as_ctrl_c(words: str, tmp_path: Path) -> None:
     assert seconds < 20
 
 
+@pytest.mark.slow
+def test_two_ctrl_c_end_workers_as_well(tmp_path: Path) -> None:
+    """The command waited for workers that the first had interrupted, for ever."""
+    process = start("identify check", tmp_path)
+    while busy(process) < BUSY:
+        time.sleep(0.02)
+    for _ in range(2):
+        os.killpg(process.pid, signal.SIGINT)
+        time.sleep(0.15)
+    assert "Stopped by Ctrl-C" in process.communicate(timeout=10)[1]
+
+
 def test_a_command_that_sigterm_stops_has_its_exit_code(capsys: pytest.CaptureFixture[str]) -> None:
     before = signal.getsignal(signal.SIGTERM)
 

@@ -1,5 +1,7 @@
 """The configuration of a run: every refusal names file, line, value, unit, range and remedy."""
 
+import copy
+import pickle
 import re
 from pathlib import Path
 
@@ -293,3 +295,11 @@ def test_any_document_is_read_or_refused(table: dict[str, object]) -> None:
         Configuration.from_toml(tomli_w.dumps(table))
     except ConfigurationError as error:
         assert str(error).startswith("configuration")  # noqa: PT017
+
+
+def test_a_configuration_is_copied_and_goes_to_another_process() -> None:
+    """Its profiles have read-only values, which neither pickle nor copy takes."""
+    known = ebac.datasets.joystick()
+    for same in (pickle.loads(pickle.dumps(known)), copy.deepcopy(known)):
+        assert same == known
+        assert same.drives.nodes[0].profile.values == known.drives.nodes[0].profile.values

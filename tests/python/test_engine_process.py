@@ -156,6 +156,12 @@ def test_a_forked_copy_of_the_loop_ends_nothing(engine: Callable[..., list[str]]
         os.waitpid(copy, 0)
         assert (MEMORY / process.name.removeprefix("/")).exists()
         assert process.trouble == ""
+        copy = os.fork()
+        if copy == 0:
+            del process._channel  # its memory took the name away
+            os._exit(0)
+        os.waitpid(copy, 0)
+        assert (MEMORY / process.name.removeprefix("/")).exists()
 
 
 def test_an_engine_that_raises_ends_its_program(engine: Callable[..., list[str]]) -> None:

@@ -380,3 +380,10 @@ def test_troubles_lie_in_their_ranges(loss: float, status: float) -> None:
     if not 0 <= loss <= 1:
         with pytest.raises(ValueError, match=r"EmulatorTrouble.loss = .*: must lie in \[0, 1\]"):
             EmulatorTrouble(loss=loss)
+
+
+def test_a_status_is_explained_for_a_known_model_only() -> None:
+    with pytest.raises(ValueError, match=r"model 'axai': no such name, did you mean 'axia'"):
+        explain(1, model="axai")
+    with pytest.raises(ValueError, match=r"status = -1: must lie in \[0, 0xFFFFFFFF\]"):
+        explain(-1)

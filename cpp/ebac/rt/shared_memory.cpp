@@ -53,7 +53,7 @@ SharedMemory::SharedMemory(int descriptor, std::size_t bytes)
 }
 
 SharedMemory::SharedMemory(std::string name, int descriptor, std::size_t bytes)
-    : bytes_(bytes), descriptor_(descriptor), name_(std::move(name)) {
+    : bytes_(bytes), descriptor_(descriptor), name_(std::move(name)), owner_(getpid()) {
   map();
 }
 
@@ -97,7 +97,7 @@ void SharedMemory::map() {
 SharedMemory::~SharedMemory() {
   munmap(at_, bytes_);
   close(descriptor_);
-  if (!name_.empty()) remove(name_);
+  if (!name_.empty() && getpid() == owner_) remove(name_);
 }
 
 }  // namespace ebac::rt

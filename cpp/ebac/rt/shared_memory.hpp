@@ -39,6 +39,7 @@ class SharedMemory {
   std::size_t bytes_;
   int descriptor_;
   std::string name_;  // that it takes away; empty for none
+  int owner_;         // process that made it: a forked one leaves the name to it
   void* at_ = nullptr;
 };
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import signal
 import sys
+from io import TextIOWrapper
 from types import FrameType
 from typing import Any, NoReturn, TextIO, cast
 
@@ -13,6 +14,9 @@ def begin() -> None:
     """Prepare the process, before anything that takes time is imported."""
     if signal.getsignal(signal.SIGINT) is signal.default_int_handler:
         signal.signal(signal.SIGINT, _leave)
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, TextIOWrapper):
+            stream.reconfigure(errors="replace")  # a bullet in a terminal of Latin-1
     if sys.stdout is not None:
         sys.stdout = cast("TextIO", _Output(sys.stdout))
 

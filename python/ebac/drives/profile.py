@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import dataclasses
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
+from functools import partial
 from importlib.resources import files
 from pathlib import Path
 from types import MappingProxyType
@@ -91,6 +92,11 @@ class Profile:
                 f"{self.name}: without names every limit of torque and current: the drive would allow any; give the "
                 "maker's own limit under [objects]"
             )
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Return how it is made again: its values cannot be copied as they are, they are read-only."""
+        given = {one.name: getattr(self, one.name) for one in fields(self)}
+        return partial(type(self), **{**given, "values": dict(self.values)}), ()
 
     def _unbounded(self) -> bool:
         limits = ("limits.max_torque", "limits.max_current")

@@ -124,14 +124,18 @@ def bus_timing(
     ):  # fmt: skip
         if not low <= value <= high:
             raise ValueError(f"{name} = {value:g}: must lie in [{low:g}, {high:g}]")
+    ids = [node.id for node in network.nodes]
+    if broken is not None and broken not in ids:
+        raise ValueError(
+            f"broken = {broken!r}: must be the id of a node: {', '.join(map(str, ids))}"
+        )
     wire = SimulatedWire(
         stations=_DRIVES + len(network.nodes),
         bit_rate=network.bitrate,
         error_rate=error_rate,
         seed=seed,
     )
-    ids = [node.id for node in network.nodes]
-    if broken in ids:
+    if broken is not None:
         wire.break_station(_DRIVES + ids.index(broken))
     return _Exchanges(network, wire, dt, share * dt, random.Random(seed)).run(ticks)
 

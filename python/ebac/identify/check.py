@@ -6,9 +6,11 @@ that the fit knows nothing of.
 
 from __future__ import annotations
 
+import signal
 from collections.abc import Callable, Iterable, Mapping
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass, replace
+from multiprocessing import active_children
 from time import perf_counter
 from typing import Any
 
@@ -175,6 +177,12 @@ def _outcomes(
     ]
 
 
+def _without_handlers() -> None:
+    """Leave Ctrl-C to the process that started this one, and end at once when it says so."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    signal.signal(signal.SIGTERM, signal.SIG_DFL)
+
+
 def _run(job: tuple[str, int, int, float]) -> list[Outcome]:
     what, number, seed, seconds = job
     if what == "device":
@@ -275,9 +283,18 @@ def check(
         raise ValueError(f"workers = {workers}: must be at least 1")
     jobs = [(what, i, seed, seconds) for i in range(arms)]
     outcomes: list[Outcome] = []
-    with ProcessPoolExecutor(workers) as pool:
+    # Ctrl-C in a terminal goes to all processes: this one alone takes it, and ends the workers.
+    others = set(active_children())
+    pool = ProcessPoolExecutor(workers, initializer=_without_handlers)
+    try:
         for done, found in enumerate(pool.map(_run, jobs), 1):
             outcomes += found
             if progress is not None:
                 progress(done)
+    except BaseException:
+        for worker in set(active_children()) - others:
+            worker.terminate()
+        pool.shutdown(wait=False, cancel_futures=True)
+        raise
+    pool.shutdown()
     return Check(outcomes=tuple(outcomes))

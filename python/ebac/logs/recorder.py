@@ -180,7 +180,7 @@ class Recorder:
             self._waiting.append(Event(kind=kind, message=message, tick=at, t=t, values=values))
 
     def _time_of(self, tick: int) -> float:
-        """Return the time of a tick [s], as near as the rows in memory tell it."""
+        """Return the time of a tick [s]: that of its row, or of the nearest one in memory."""
         seen, (last, t, _) = self._seen, self._last
         earliest = max(self._rows.first, seen - 1 - max(0, last - tick))
         _, raw = self._rows.copy(earliest, seen)

@@ -6,6 +6,8 @@ Sources: ATI's manuals of the Net F/T (9620-05-NET FT, system status code) and o
 
 from __future__ import annotations
 
+from ebac._util.arguments import unknown
+
 _NET_FT = {
     31: "an error",
     30: "CPU or RAM error",
@@ -65,7 +67,16 @@ def explain(status: int, model: str = "net-ft") -> list[str]:
         Status word of a record, 0 to 0xFFFFFFFF; 0 is well.
     model : "net-ft", "axia" or "other"
         Whose bits they are; "other" has no names.
+
+    Raises
+    ------
+    ValueError
+        For a model that is not known, or a status out of range.
     """
+    if model not in BITS:
+        raise ValueError(unknown(f"model {model!r}", str(model), list(BITS), "model"))
+    if not 0 <= status <= 0xFFFFFFFF:
+        raise ValueError(f"status = {status}: must lie in [0, 0xFFFFFFFF]")
     names = BITS[model]
     bits = [i for i in range(31, -1, -1) if status >> i & 1]
     if len(bits) > 1 and 31 in bits and 31 in names:

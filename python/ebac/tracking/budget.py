@@ -147,7 +147,10 @@ def error_budget(
         raise ValueError(
             f"radius = {radius} m: must lie in (0, 0.049] m, the reach of +-30 deg on 100 mm"
         )
-    sizes, stick = sources or ErrorSources(), device or presets.device("joystick")
+    sizes, stick = (
+        sources or ErrorSources(),
+        presets.device("joystick") if device is None else device,
+    )
     parts = {**{name: sizes.only(name) for name in GROUPS}, "all": sizes}
     rows: list[BudgetRow] = []
     examples: dict[str, Values] = {}
