@@ -295,7 +295,10 @@ def test_mat_is_read(tmp_path: Path, trace: ebac.Trace) -> None:
             "x is no number in 1 of 60 rows, first in row 8",
         ),
         ("t,x [furlong]\n" + "".join(f"{i},{i}\n" for i in range(60)), "must be one of m, mm, cm"),
-        ("t,x\n" + "".join(f"{i % 9},{i}\n" for i in range(60)), "t does not rise"),
+        (
+            "t,x\n" + "".join(f"{i % 9},{i}\n" for i in range(60)),
+            "t goes back in row 10; sort the log",
+        ),
         ("t,x\n0,1\n1\n", "row 2 below the heading has 1 cell"),
         ("t,x\n0,one\n1,2\n", "'one' in row 1, column 'x', is no number"),
         ("1,2\n3,4\n", "has no heading"),

@@ -42,7 +42,11 @@ BAD: dict[str, tuple[bytes, str]] = {
     "large.csv": (text("t,x,force", T, 1e3 * X, F), "x spans .* a hand 2.5 m at most.*--unit x=mm"),
     "small.csv": (text("t,x [um],force", T, X, F), "less than a hand that holds still.*--unit x=m"),
     "slow.csv": (text("t,x,force", 1e3 * T, X, F), "rows are 1 s apart.*--unit t=ms"),
-    "backwards.csv": (text("t,x,force", T[::-1], X, F), "t does not rise in row 2"),
+    "backwards.csv": (text("t,x,force", T[::-1], X, F), "t goes back in row 2; sort the log"),
+    "repeated.csv": (
+        text("t,x,force", np.repeat(T[::2], 2), X, F),
+        "t is that of the row before in 100 rows, first in row 2; give the rows a second .*--rate",
+    ),
     "three.csv": (text("t,x,force", T[:3], X[:3], F[:3]), "3 rows; needs at least 50"),
     "empty.csv": (b"", "is empty: needs a heading"),
     "heading.csv": (b"t,x,force\n", "no rows below its heading"),

@@ -34,6 +34,8 @@ std::string remedy(const BusLoad& load) {
   std::string text =
       "fewer or shorter frames, a rate up to " + shortest(std::floor(load.highest_rate())) + " Hz";
   if (load.bit_rate < kFastestBus) text += ", a bus of up to 1000 kbit/s";
+  const auto several = [](const PlannedFrame& frame) { return frame.count > 1; };
+  if (!std::ranges::any_of(load.frames, several)) return text;
   return text + ", or a bus of its own for a part of the nodes";
 }
 

@@ -20,7 +20,7 @@ from ebac.identify.load_options import refuse_unused, words_by_signal
 from ebac.identify.missing import not_found
 from ebac.identify.of_trace import path_of, signals_of, trace_facts, where_met
 from ebac.identify.plausible import plausible
-from ebac.identify.recording import LEAST_ROWS, Recording, count_of
+from ebac.identify.recording import LEAST_ROWS, Recording, count_of, not_rising
 from ebac.identify.rotary import Conversion, in_si
 from ebac.identify.rows import on_rows
 from ebac.trace import Trace
@@ -300,8 +300,5 @@ def _evenly(name: str, signals: Columns, remarks: list[str]) -> Columns:
             )
     step = np.diff(t)
     if not (step > 0).all():
-        raise ValueError(
-            f"{name}: t does not rise in row {int(np.argmin(step > 0)) + 2}; sort the log by time, or give times "
-            "with more digits"
-        )
+        raise ValueError(f"{name}: {not_rising(step, 1)}")
     return on_rows(name, signals, remarks)

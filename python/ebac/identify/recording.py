@@ -25,6 +25,19 @@ LEAST_ROWS = 50
 PAUSE = 1.5
 
 
+def not_rising(step: NDArray[np.float64], first: int) -> str:
+    """Return where times do not rise, from the steps between them, and the remedy; rows are counted from `first`."""
+    row = int(np.argmin(step > 0)) + 1 + first
+    if (step >= 0).all():
+        same = int((step == 0).sum())
+        rows = f"in {same} rows, first in row {row}" if same > 1 else f"in row {row}"
+        return (
+            f"t is that of the row before {rows}; give the rows a second (rate=, --rate), times with more digits, or "
+            "leave out what was written twice"
+        )
+    return f"t goes back in row {row}; sort the log by time"
+
+
 @plain_constructor
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Recording:
@@ -127,9 +140,7 @@ class Recording:
                 )
         step = np.diff(self.t)
         if not (step > 0).all():
-            raise ValueError(
-                f"{self.name}: t does not rise in row {int(np.argmin(step > 0)) + 1}; sort the log by time"
-            )
+            raise ValueError(f"{self.name}: {not_rising(step, 0)}")
         within = step[step < PAUSE * self.dt]
         if np.ptp(within) > 1e-3 * self.dt:
             raise ValueError(

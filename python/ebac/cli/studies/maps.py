@@ -176,7 +176,7 @@ def _show(maps: list[StabilityMap]) -> None:
         output.say(f"Not judged exact, there is no ideal rest: {why}.")
     along, up = maps[0].axes
     output.say(f"Share of the area: {_range(along, maps[0].xs)} by {_range(up, maps[0].ys)}.")
-    output.say("Simulation. These two vary; everything else as in:", style="bold")
+    output.say("Simulation. Where these two vary, their values replace those of:", style="bold")
     output.indented(descriptions.describe(maps[0].base).replace("; ", "\n"))
 
 
