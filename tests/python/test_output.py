@@ -134,8 +134,8 @@ def test_two_commands_at_once_write_to_folders_of_their_own(
     monkeypatch.chdir(tmp_path)
     Path("ebac-wall").mkdir()
     with claims(), claimed(Path("ebac-wall-2")):
-        assert own_folder("ebac-wall") == Path("ebac-wall")
-        assert own_folder("ebac-wall") == Path("ebac-wall-3")
+        for _ in range(2):  # a command may ask again
+            assert own_folder("ebac-wall") == Path("ebac-wall")
         with pytest.raises(typer.Exit):
             free_folder(Path("ebac-wall-2"), force=False)
         with filled("ebac-wall") as draft:

@@ -187,7 +187,8 @@ class ResultOptions(FigureOptions):
             output.list_files(folder, files)
 
 
-#: Folders that no other command may take until this one has ended.
+#: Folders that no other command may take until this one has ended, and what lets go of them.
+_mine: set[Path] = set()
 _claims = ExitStack()
 
 
@@ -195,6 +196,7 @@ _claims = ExitStack()
 def claims() -> Iterator[None]:
     """Let go of the folders of a command at its end."""
     with _claims:
+        _claims.callback(_mine.clear)
         yield
 
 
@@ -202,8 +204,13 @@ def _claim(folder: Path, where: str) -> bool:
     """Return whether a folder had no files, and is this command's now."""
     from ebac._util.atomic_folder import claimed
 
+    if folder.absolute() in _mine:
+        return True
     with output.writing(where, "folder"):
-        return _claims.enter_context(claimed(folder))
+        free = _claims.enter_context(claimed(folder))
+    if free:
+        _mine.add(folder.absolute())
+    return free
 
 
 def free_folder(out: Path, *, force: bool) -> Path:

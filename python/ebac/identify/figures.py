@@ -131,13 +131,16 @@ def plot_device(result: DeviceResult) -> Picture:
     r, drive = result.recording, result.drive
     by, way, effort = (1.0, "rad", "torque") if r.rotary else (1e3, "mm", "force")
     strength = r.units[1]
-    line(motion, r.t, by * r.x, color="0.35", lw=1.2)
+    for rows in r.stretches:  # nothing was recorded in a pause
+        line(motion, r.t[rows], by * r.x[rows], color="0.35", lw=1.2)
     dress(motion, f"{'angle' if r.rotary else 'position'} [{way}]")
     on = drive.slides
     columns = columns_of(drive, result.stribeck_speed)
     model = np.full(len(r.t), np.nan)
     model[on] = columns @ result.values
-    line(force, r.t, -drive.smooth_force, color="0.35", lw=1.4, label=f"{r.origin}, smoothed")
+    for i, rows in enumerate(r.stretches):
+        label = "_" if i else f"{r.origin}, smoothed"
+        line(force, r.t[rows], -drive.smooth_force[rows], color="0.35", lw=1.4, label=label)
     force.plot(
         r.t, model, color="#009e73", lw=1.0, ls="--", label="eq. (6) with friction, where it slides"
     )

@@ -176,14 +176,21 @@ def _panel(ax: Axes, study: Study, law: str, condition: str, shade: str) -> None
     ax.set_xticks([LEAST_SWING, 1e-2, 1, MOST])
     ax.set_ylim(-2 * MOST, 2 * MOST)
     ax.set_yticks([-100, -1, -0.1, 0, 0.1, 1, 100])
-    plain = FuncFormatter(lambda value, _: "none" if value == LEAST_SWING else f"{value:g}")
-    ax.xaxis.set_major_formatter(plain)
-    ax.yaxis.set_major_formatter(plain)
+    ax.xaxis.set_major_formatter(FuncFormatter(lambda value, _: _at_edge(value)))
+    ax.yaxis.set_major_formatter(FuncFormatter(lambda value, _: _at_edge(value)))
     ax.grid(color="0.93", lw=0.8)
     ax.set_axisbelow(True)
     ax.spines[["top", "right"]].set_visible(False)
     _name_worst(ax, swing, deviation, part, band)
     ax.set_title(f"{int(good.sum())} of {len(runs)} good", fontsize="small", loc="left")
+
+
+def _at_edge(value: float) -> str:
+    """Return the label of a tick; on an edge lies what is beyond it as well."""
+    if value == LEAST_SWING:
+        return "none"
+    sign = {MOST: "≥ ", -MOST: "≤ "}.get(value, "")
+    return f"{sign}{value:g}"
 
 
 def _name_worst(
