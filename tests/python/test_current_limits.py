@@ -10,7 +10,7 @@ import ebac
 from ebac._core import Limited
 from ebac.cli import app
 from ebac.datasets import joystick_text
-from ebac.hardware import Configuration
+from ebac.hardware import Configuration, under_the_law
 from ebac.metrics import current_limits
 
 WEAK = joystick_text("joystick").replace("thermal_time", "#").replace(
@@ -23,7 +23,7 @@ def weak() -> Configuration:
 
 
 def test_a_warm_motor_is_named_with_its_share_and_its_beginning() -> None:
-    trace = weak().simulate(bus_time=False)
+    trace = under_the_law(weak().simulate(bus_time=False))
     found = current_limits(trace)
     assert found is not None
     hot = (trace["limited"] & int(Limited.THERMAL)) != 0
