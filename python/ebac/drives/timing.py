@@ -66,7 +66,7 @@ class BusTiming:
     def describe(self) -> str:
         """Return it in one sentence."""
         mean, worst, most = (round(1e6 * time) for time in (self.mean, self.worst, self.answer))
-        times = f"exchange {mean} us on average, {worst} us at worst, of {most} us"
+        times = f"simulated exchange {mean} us on average, {worst} us at most, of {most} us"
         parts = [times, f"{self.late} of {self.ticks} ticks late, {self.missing} without an answer"]
         if self.errors:
             parts.append(f"{plural(self.errors, 'frame')} destroyed")

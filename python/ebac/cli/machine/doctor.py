@@ -99,12 +99,13 @@ def _bus(path: Path) -> Finding:
     return Finding(
         what="the bus, one tick",
         found=f"answers after {1e6 * least:.0f} to {1e6 * most:.0f} us, the loop waits {1e6 * waits:.0f} us "
-        f"of {1e6 * dt:.0f}; load at most {share}",
+        f"of {1e6 * dt:.0f}; load at most {share} (the most with a stuff bit wherever one fits)",
         verdict=verdict,
         remedy=""
         if in_time
         else f"the slowest answer must leave {100 * _MARGIN:.0f} % of the time the loop waits: raise bus.answer_share "
-        f"({known.answer_share:g} now, at most 0.9) or the bit rate, lengthen timing.dt, or use a second bus",
+        f"({known.answer_share:g} now, at most 0.9) or the bit rate, lengthen timing.dt"
+        + (", or use a second bus" if len(known.drives.nodes) > 1 else ""),
     )
 
 
