@@ -30,6 +30,7 @@ SWEPT: dict[str, list[ebac.Variant | str]] = {
     ],
     "lag-compensator": [
         "lag-compensator-tuned-observer",
+        "lag-compensator-tuned-stiff-observer",
         *(
             ebac.Variant(
                 "lag-compensator",

@@ -14,7 +14,7 @@ from typer.testing import CliRunner
 
 import ebac
 from ebac import _core
-from ebac._util.arguments import LISTED_BY, near, unknown
+from ebac._util.arguments import LISTED_BY, near, number, unknown
 from ebac.cli import app
 from ebac.laws.tuned_laws import tuned_laws
 
@@ -356,3 +356,8 @@ def test_a_condition_that_gives_nothing_is_refused_by_its_name() -> None:
     )
     with pytest.raises(TypeError, match="condition none takes a change that returns a Scenario"):
         ebac.study(ebac.Operators.grid()[:1], ["ebac"], [nothing])
+
+
+def test_a_whole_number_beyond_a_double_is_refused_by_name() -> None:
+    with pytest.raises(ValueError, match=r"amplitude = 1000000000\.\.\.: is too large"):
+        number("amplitude", 10**400)

@@ -422,3 +422,10 @@ def test_the_slack_that_would_explain_the_table_does() -> None:
 def test_a_budget_that_cannot_be_is_refused(call: Any, message: str) -> None:
     with pytest.raises(ValueError, match=message):
         call()
+
+
+def test_masked_points_are_refused() -> None:
+    """Their values were counted all the same."""
+    points = np.ma.masked_greater(np.array([[0.0, 1], [1, 0], [0, -1], [-1, 0], [5, 5]]), 2)
+    with pytest.raises(ValueError, match="points: some are masked"):
+        fit_circle(points)

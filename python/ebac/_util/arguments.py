@@ -107,10 +107,15 @@ def number(name: str, value: Any) -> float:
     ------
     TypeError
         For anything else; the message names it.
+    ValueError
+        For a whole number that is too large.
     """
     if isinstance(value, bool) or not isinstance(value, Real):
         raise TypeError(f"{name} = {value!r}: must be a number")
-    return float(value)
+    try:
+        return float(value)
+    except OverflowError:
+        raise ValueError(f"{name} = {str(value)[:10]}...: is too large for a number") from None
 
 
 def of_percent(value: float) -> str:

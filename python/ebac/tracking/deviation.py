@@ -88,8 +88,11 @@ def checked(points: ArrayLike, least: int, what: str) -> Values:
     Raises
     ------
     ValueError
-        For another shape, fewer than `least` points, a coordinate that is not finite, or points that are all one.
+        For masked points, another shape, fewer than `least` points, a coordinate that is not finite, or points that
+        are all one.
     """
+    if np.ma.is_masked(points):
+        raise ValueError("points: some are masked, which a fit does not know; leave them out")
     try:
         array: Any = np.array(points, float)
     except (TypeError, ValueError):
