@@ -94,6 +94,20 @@ def test_several_may_be_open_and_be_closed_in_any_order(closed: int) -> None:
     assert {number: signal.getsignal(number) for number in before} == before
 
 
+def test_a_signal_while_one_is_stopped_ends_the_other_that_moves_at_once() -> None:
+    hurried: list[str] = []
+    with Interrupts() as stopped, Interrupts() as moves:
+        for name, one in (("stopped", stopped), ("moves", moves)):
+            one.hurry = lambda name=name: hurried.append(name)  # type: ignore[misc]
+            one.moving()
+        stopped.ending()
+        signal.raise_signal(signal.SIGINT)  # not in the middle of the stop
+        assert hurried == ["stopped", "moves"]
+        for one in (stopped, moves):
+            with pytest.raises(KeyboardInterrupt):
+                one.settled()
+
+
 def test_one_that_is_being_stopped_keeps_a_signal_from_the_others() -> None:
     with Interrupts() as stopped, Interrupts() as idle:
         stopped.moving()

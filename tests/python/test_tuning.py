@@ -203,7 +203,7 @@ def test_a_tuned_law_is_the_law_with_the_parameters_of_the_table(
     assert row["cost"] <= row["default_cost"]
 
 
-def test_a_law_that_was_searched_for_stiffness_has_the_parameters_of_its_script() -> None:
+def test_a_law_that_was_searched_for_stiffness_is_one_law_at_every_delay() -> None:
     name = "lag-compensator-tuned-stiff-observer"
     found = {"stiffness": 31500.0, "virtual_damping": 56.2, "recovery_time": 1.69}
     for delay in (0, 1, 2):

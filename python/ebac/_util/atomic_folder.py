@@ -47,9 +47,7 @@ def claimed(folder: Path) -> Iterator[bool]:
                 looking.enter_context(locked(folder))
             free = not has_files(folder)
             if free:
-                mark = claim.enter_context(TemporaryDirectory(prefix=_prefix(), dir=folder))
-                with suppress(*NO_LOCKS):
-                    claim.enter_context(locked(Path(mark)))
+                _in_use(folder, claim)
         yield free
 
 
@@ -90,10 +88,16 @@ def _draft(target: Path) -> Iterator[Path]:
                 making.enter_context(locked(target))
                 for old in filter(is_abandoned, target.iterdir()):
                     shutil.rmtree(old, ignore_errors=True)
-            draft = Path(stack.enter_context(TemporaryDirectory(prefix=_prefix(), dir=target)))
-            with suppress(*NO_LOCKS):
-                stack.enter_context(locked(draft))
+            draft = _in_use(target, stack)
         yield draft
+
+
+def _in_use(folder: Path, stack: ExitStack) -> Path:
+    """Return a hidden folder in another one, locked until the stack is closed: who looks there knows it is in use."""
+    draft = Path(stack.enter_context(TemporaryDirectory(prefix=_prefix(), dir=folder)))
+    with suppress(*NO_LOCKS):
+        stack.enter_context(locked(draft))
+    return draft
 
 
 @contextmanager

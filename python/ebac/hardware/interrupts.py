@@ -85,16 +85,21 @@ class Interrupts:
         if kept is not None and self.first is None and here:
             _raise(kept)
 
-    def taken(self, number: int) -> bool:
-        """Take a signal; return whether it is kept, as what moves is being stopped already."""
-        if self._ending:
+    @property
+    def stops(self) -> bool:
+        """Whether what moved is being stopped, so that no exception may come in between."""
+        return self._ending
+
+    def end(self, number: int) -> None:
+        """End what moves by a signal that is raised now."""
+        if self._moving:
+            self._ending, self.first = True, number
+
+    def keep(self, number: int) -> None:
+        """Keep a signal that cannot be raised now; what moves or is being stopped ends at once."""
+        if self._moving or self._ending:
             self._kept = number
             self.hurry()
-            return True
-        self._ending = self._moving
-        if self._moving:
-            self.first = number
-        return False
 
 
 class _Handlers:
@@ -130,9 +135,13 @@ class _Handlers:
             self._restore()
             signal.raise_signal(number)
             return
-        kept = [one.taken(number) for one in self._open]
-        if not any(kept):
-            _raise(number)
+        if any(one.stops for one in self._open):
+            for one in self._open:
+                one.keep(number)
+            return
+        for one in self._open:
+            one.end(number)
+        _raise(number)
 
 
 _HANDLERS = _Handlers()

@@ -9,7 +9,7 @@ import numpy as np
 from ebac._core import Limited
 from ebac._util.arguments import require
 from ebac.trace import Trace
-from ebac.trace.acting import under_the_law, waits_or_ramps
+from ebac.trace.acting import without_waits
 
 #: In words; a soft start or stop (RAMP) is meant to hold it back.
 _BY = {
@@ -64,8 +64,7 @@ def current_limits(trace: Trace) -> CurrentLimits | None:
         "ebac.metrics.current_limits",
         "a trace, as ebac.simulate or ebac.load returns it",
     )
-    if waits_or_ramps(trace):
-        trace = under_the_law(trace)
+    trace = without_waits(trace)
     code = np.asarray(trace["limited"]) if "limited" in trace else np.zeros(0, dtype=int)
     acted = {one.name.lower(): (code & int(one)) != 0 for one in _BY if one.name}
     ticks = {name: at for name, at in acted.items() if at.any()}

@@ -25,7 +25,7 @@ from ebac.metrics.ideal import allowed_deviation, ideal_rest, without_engine
 from ebac.metrics.with_hand import at_hands_pace, moves_with_hand
 from ebac.scenario import Environment
 from ebac.trace import Trace
-from ebac.trace.acting import under_the_law, waits_or_ramps
+from ebac.trace.acting import without_waits
 
 #: A handle that met nothing for so long at the end of a run has left the surface [s]; a law that shakes meets the wall
 #: several times within it.
@@ -89,8 +89,7 @@ def contact(trace: Trace, *, axis: int | None = None, truth: bool = True) -> Con
         When it is no trace.
     """
     require(trace, Trace, "ebac.contact", "a trace, as ebac.simulate or ebac.load returns it")
-    if waits_or_ramps(trace):
-        trace = under_the_law(trace)
+    trace = without_waits(trace)
     if len(trace) < FEWEST_ROWS:
         raise ValueError(f"the trace has {len(trace)} rows: a contact needs at least {FEWEST_ROWS}")
     judged = range(trace.axes) if axis is None else [axis]

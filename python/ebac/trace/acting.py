@@ -28,9 +28,9 @@ def under_the_law(trace: Trace) -> Trace:
     return part.with_column("t", part["t"] - part["t"][0])
 
 
-def waits_or_ramps(trace: Trace) -> bool:
-    """Return whether a trace has rows in which the loop waited for drives or ramped its force down, without a fault."""
+def without_waits(trace: Trace) -> Trace:
+    """Return a trace without rows in which the loop waited for drives or ramped its force down, where it has any."""
     if "state" not in trace:
-        return False
+        return trace
     outside = np.isin(trace["state"], [int(LoopState.ARM), int(LoopState.STOP)])
-    return bool((outside & (trace["fault"] == 0)).any())
+    return under_the_law(trace) if (outside & (trace["fault"] == 0)).any() else trace
