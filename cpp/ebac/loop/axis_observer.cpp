@@ -13,7 +13,7 @@ void AxisObserver::set_tick(double dt) EBAC_RT {
   per_noise_ = 1 / params_.force_noise;
   const double lag = params_.force_lag + records_.mean_age();
   motor_.set_tick(lag, dt);
-  echo_ = kEcho * std::max(0.0, 1 - lag / (kFiltered * dt));
+  echo_.set_tick(lag, dt);
   const double w = std::sqrt(std::sqrt(12.0) * params_.force_noise / (mass_ * params_.count));
   within_ = std::clamp(w * w * dt * dt / kDithered, 0.5, 1.0);
   full_ = ObserverGains::of(w, 0.5, dt);

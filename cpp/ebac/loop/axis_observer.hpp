@@ -8,6 +8,7 @@
 #include "ebac/core/realtime.hpp"
 #include "ebac/loop/force_history.hpp"
 #include "ebac/loop/force_trend.hpp"
+#include "ebac/loop/motor_echo.hpp"
 #include "ebac/loop/motor_force.hpp"
 #include "ebac/loop/motor_strength.hpp"
 #include "ebac/loop/observer_gains.hpp"
@@ -77,7 +78,7 @@ class AxisObserver {
     u_ = v_ = 0;
     disturbance_ = weight_;
     motor_ = MotorForce(params_.current_lag, held + weight_);
-    shown_ = shown_before_ = motor_.shown();
+    echo_.restart(motor_.shown());
     measured_ = before_last_ = held;
     trend_ = ForceTrend(held);
     contradicted_ = 0;
@@ -115,8 +116,8 @@ class AxisObserver {
     if (dt != dt_ || records_.started()) set_tick(dt);
     doubt(seen.age > params_.force_age, measured);
     const double motor = motor_.hold(strength_.of(applied));  // G f
-    double force = mean_of(measured, measured_, before_last_) + disturbance_;
-    if (echo_ > 0) force += echo_ * missed_echo(motor);
+    double force = mean_of_readings(measured, measured_, before_last_) + disturbance_;
+    if (echo_.heard()) force += echo_.missed(motor_.shown(), motor);
     const double bend = measured - 2 * measured_ + before_last_;
     noise_.hear(std::abs(bend));
     before_last_ = measured_;
@@ -194,24 +195,7 @@ class AxisObserver {
   static constexpr double kMemory = 0.05;   // s, of the contradictions
   static constexpr double kBears = 0.15;    // share of ticks that may contradict
   static constexpr double kLearn = 2;       // from here to 1/2 more, all gains rise to those of w
-  static constexpr double kEcho = 0.9;      // of a sensor without lag
-  static constexpr double kFiltered = 0.4;  // of a tick: a lag from which the parabola is right
   static constexpr double kPatience = 3.5e-3;  // s, half a period of a cable's resonance of 140 Hz
-
-  /// The mean over the interval, of the parabola through three values, the last at its end [N].
-  static double mean_of(double now, double last, double before) EBAC_RT {
-    return (5 * now + 8 * last - before) * (1.0 / 12);
-  }
-
-  /// What readings miss of a force that echoes the motor's: a hand's mass, which the motor pushes, too. A sensor without
-  /// a filter shows the motor's step when it is over, and the parabola puts it too late.
-  double missed_echo(double motor) EBAC_RT {
-    const double shown = motor_.shown();
-    const double missed = motor - mean_of(shown, shown_, shown_before_);
-    shown_before_ = shown_;
-    shown_ = shown;
-    return missed;
-  }
 
   double acceleration() const EBAC_RT {
     const double pull = measured_ + disturbance_ - damping_ * u_ - motor_.shown();
@@ -301,6 +285,7 @@ class AxisObserver {
   double per_mass_;     // 1/kg
   double damping_ = 0;  // N s/m
   MotorForce motor_;
+  MotorEcho echo_;
   MotorStrength strength_;
   SensorNoise noise_;
   ForceTrend trend_;
@@ -312,11 +297,8 @@ class AxisObserver {
   double disturbance_ = 0;  // N
   double weight_ = 0;       // N, of the device, in it
   bool learns_ = false;
-  double echo_ = 0;          // share of the motor's force that a hand's mass gives back
-  double shown_ = 0;         // N, of the motor at the last reading, kept where there is an echo
-  double shown_before_ = 0;  // N, at the reading before
-  double measured_ = 0;      // N
-  double before_last_ = 0;   // N, the reading before
+  double measured_ = 0;     // N
+  double before_last_ = 0;  // N, the reading before
   double contradicted_ = 0;
   double reading_ = 0;  // m, the last one
   double pace_ = 0;     // m/s, mean velocity between the last two
