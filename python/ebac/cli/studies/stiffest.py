@@ -9,9 +9,18 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from ebac.cli import by_name, doubtful_wall, from_options, interrupts, options, output, weak_motor
+from ebac.cli import (
+    by_name,
+    changed_laws,
+    doubtful_wall,
+    from_options,
+    interrupts,
+    options,
+    output,
+    weak_motor,
+)
 from ebac.cli.files import ResultOptions
-from ebac.cli.studies import changed_laws, short_runs, study_results
+from ebac.cli.studies import short_runs, study_results
 
 if TYPE_CHECKING:
     from ebac.scenario import Scenario

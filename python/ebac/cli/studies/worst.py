@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from ebac.cli import by_name, from_options, interrupts, options, output
+from ebac.cli import by_name, changed_laws, from_options, interrupts, options, output
 from ebac.cli.files import ResultOptions
-from ebac.cli.studies import changed_laws, replaced, worst_tables
+from ebac.cli.studies import replaced, worst_tables
 
 if TYPE_CHECKING:
     from ebac._util.progress import Progress

@@ -10,9 +10,9 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from ebac.cli import by_name, from_options, interrupts, options, output, setting
+from ebac.cli import by_name, changed_laws, from_options, interrupts, options, output, setting
 from ebac.cli.files import ResultOptions
-from ebac.cli.studies import changed_laws, zwidth_vibration
+from ebac.cli.studies import zwidth_vibration
 
 if TYPE_CHECKING:
     from ebac.studies.zwidth import ZWidth
