@@ -573,7 +573,7 @@ def test_an_ideal_wall_under_friction_is_good_for_every_hand(friction: float) ->
     """A hand stops anywhere within the band of friction, so a narrower criterion would blame the ideal."""
     device = ebac.Device(mechanics=ebac.Mechanics(coulomb=friction))
     scenarios = ebac.Operators.grid().scenarios(ebac.Scenario(device=device))
-    from ebac.studies.study import ideal_contacts
+    from ebac.studies.ideal import ideal_contacts
 
     away = np.abs(
         ideal_contacts(scenarios)["rest_m"] - [ebac.ideal_rest(s) or np.nan for s in scenarios]

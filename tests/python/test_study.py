@@ -17,7 +17,7 @@ from ebac.cli.studies import study_results
 from ebac.studies import GROUPS
 from ebac.studies import scenario_changes as to
 from ebac.studies.conditions import conditions as find
-from ebac.studies.study import ideal_contacts
+from ebac.studies.ideal import ideal_contacts
 
 FEW = Operators.grid(mass=[0.15], damping=[2, 4, 6], stiffness=[300], target=[0.04])  # 3 hands
 ROW = [

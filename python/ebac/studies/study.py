@@ -6,27 +6,23 @@ import warnings
 from collections.abc import Sequence
 from concurrent.futures import Executor
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ebac import _core
 from ebac._core import Wall
 from ebac._util.arguments import require
-from ebac._util.cores import thread_count
 from ebac._util.progress import Progress
 from ebac.operators import Operators
 from ebac.scenario import Scenario
 from ebac.studies.conditions import Condition
 from ebac.studies.conditions import conditions as find
+from ebac.studies.ideal import ideal_contacts, settled_in_time
 from ebac.studies.result import Study
 from ebac.studies.sweeps.run import Laws, name_laws, seed_of, sweep
 
 #: Laws that are compared unless others are given.
 LAWS = ("direct", "tca", "tca-damped", "eba", "ebac")
-#: Settled in time: within this factor of what the ideal wall needs, plus this much [s].
-SLOWER, LATER = 1.5, 0.2
 
 
 def study(
@@ -111,9 +107,7 @@ def study(
     ) & np.tile(ideal["quiet"], n)
     columns["exact_and_still"] = result.exact_and_still
     columns["good"] = result.good
-    columns["settled_in_time"] = result.exact_and_still & (
-        columns["settled_s"] <= SLOWER * columns["ideal_settled_s"] + LATER
-    )
+    columns["settled_in_time"] = settled_in_time(result, columns["ideal_settled_s"])
     return Study(
         operators=population, conditions=chosen, scenarios=scenarios, designed_for=believed,
         laws=named, columns=columns,
@@ -137,21 +131,3 @@ def _tell_of_free_air(
             f"hands that rest before the wall, {each}: every law is good for them; give targets beyond the surface",
             stacklevel=3,
         )
-
-
-def ideal_contacts(
-    scenarios: Sequence[Scenario], threads: int | None = None
-) -> dict[str, NDArray[Any]]:
-    """Return what each hand would do against an ideal, continuous wall: `rest_m`, `swing_m`, `settled_s`, `quiet`.
-
-    It settles at inf where it never does; NaN where there is no closed form, see `ideal_contact` in the core.
-    """
-    setups = [scenario.setup() for scenario in scenarios]
-    found = _core._ideal_contacts(setups, thread_count(threads), _core.SweepProgress())
-    settled, rest = found["settled"], found["rest"]
-    return {
-        "rest_m": rest,
-        "swing_m": found["swing"],
-        "quiet": found["quiet"] == 1,
-        "settled_s": np.where(np.isnan(settled) & np.isfinite(rest), np.inf, settled),
-    }
