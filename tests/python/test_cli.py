@@ -39,6 +39,9 @@ WALL_KEYS = [
     "touched_at_rest",
     "drawn_J",
     "impact_share",
+    "deviation_m",
+    "exact",
+    "verdict",
 ]
 
 
@@ -474,9 +477,9 @@ def test_a_fault_is_told_and_its_log_kept(monkeypatch: pytest.MonkeyPatch, tmp_p
         ("laws mine.py:Damped", "is taken by --law of `ebac wall`, `ebac study`"),
         ("laws mine.py:Damped", "this command takes the laws of the package only"),
         (
-            "wall --change guard=off",
-            "--change: there is no such option here; `ebac ablation`, `ebac stiffest`, `ebac worst` and `ebac zwidth` "
-            "have it",
+            "map --change guard=off",
+            "--change: there is no such option here; `ebac ablation`, `ebac stiffest`, `ebac study`, `ebac wall`, "
+            "`ebac worst` and `ebac zwidth` have it",
         ),
         ("wall --noise 1", "--noise: there is no such option, did you mean --device-noise; see"),
         (
@@ -925,3 +928,24 @@ def test_runs_of_many_hands_that_are_too_short_are_named(
     assert capsys.readouterr().err == ""
     short_runs.tell(ebac.Scenario(seconds=0.05))
     assert "--seconds = 0.05 s: too short to judge a contact" in capsys.readouterr().err
+
+
+def test_the_wall_puts_other_parameters_of_a_law_beside_it() -> None:
+    words = "wall --law tca --seconds 0.2 --change kp=0 --change kp=0.1,kd=0 --out out --json"
+    told = json.loads(CliRunner().invoke(app, words.split()).stdout)
+    rows = {row["law"]: row for row in told["rows"]}
+    assert list(rows) == ["tca", "tca, kp=0", "tca, kp=0.1,kd=0"]
+    alone = ebac.simulate(ebac.Scenario(seconds=0.2), ebac.Variant("tca", {"kp": 0.0}))
+    assert rows["tca, kp=0"]["rest_m"] == ebac.contact(alone).rest_m
+    assert rows["tca"]["rest_m"] != rows["tca, kp=0"]["rest_m"]
+    kept = ebac.load("out/tca_kp_0.npz")
+    assert kept.law == "tca, kp=0"
+    assert kept["x"].tobytes() == alone["x"].tobytes()
+
+
+def test_a_study_puts_other_parameters_of_a_law_beside_it() -> None:
+    words = "study --law tca --seconds 0.5 -c d1K10 --hands 2 --population random --change kp=0 --out out --json"
+    told = json.loads(CliRunner().invoke(app, words.split()).stdout)
+    assert [row["law"] for row in told["rows"]] == ["tca", "tca, kp=0"]
+    assert told["rows"][0]["most_drawn_J"] != told["rows"][1]["most_drawn_J"]
+    assert Path("out/failure-tca_kp_0-d1K10-1.npz").is_file()

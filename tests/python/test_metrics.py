@@ -608,6 +608,7 @@ def test_the_row_is_the_documented_one(run: Any) -> None:
         "limit_cycle_Hz", "least_energy_J", "clamped_share",
         "force_rest_N", "force_settled_s", "ripple_N", "ripple_rms_N", "ripple_high_N", "jumps", "perceived",
         "still", "force_quiet", "quiet", "touched_at_rest", "drawn_J", "impact_share",
+        "deviation_m", "exact", "verdict",
     ]  # fmt: skip
     assert json.loads(json.dumps(row)) == row
 

@@ -39,7 +39,7 @@ IN_CONFIGURATION = {
 MEANT = {"--device-friction": ("--device-coulomb", "--device-friction-compensation")}
 
 #: Options that only some commands have, and these.
-OF_OTHERS = {"--change": ("ablation", "stiffest", "worst", "zwidth")}
+OF_OTHERS = {"--change": ("ablation", "stiffest", "study", "wall", "worst", "zwidth")}
 
 #: What people look for who give an argument to a command that takes none.
 INSTEAD = {

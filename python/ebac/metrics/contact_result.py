@@ -269,4 +269,7 @@ class Contact:
 
     def row(self) -> dict[str, str | float | None]:
         """Return the documented row of `ebac wall --json`."""
-        return {name: value for name, value in asdict(self).items() if name not in MORE}
+        row = {name: value for name, value in asdict(self).items() if name not in MORE}
+        return row | {
+            "deviation_m": self.deviation_m, "exact": self.exact, "verdict": self.verdict
+        }  # fmt: skip

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import json
 import os
-import re
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from tempfile import NamedTemporaryFile
 from typing import TYPE_CHECKING, Any
 
+from ebac._util.file_names import file_name
 from ebac.metrics import contact
 from ebac.testing.compare import Comparison, check_columns, compare
 from ebac.testing.metric import Metrics, check_names, differences, metrics_of
@@ -55,7 +55,7 @@ class TraceRegression:
         klass = f"{node.cls.__name__}." if getattr(node, "cls", None) else ""
         return cls(
             folder=folder,
-            name=_file_name(klass + node.name),
+            name=file_name(klass + node.name, "trace"),
             update=bool(config.getoption("--ebac-update")),
             pictures=request.getfixturevalue("tmp_path"),
         )
@@ -114,7 +114,7 @@ class TraceRegression:
         check_columns(tolerances or {}, ["t", *chosen])
         found = _part(trace, chosen, every)
         came_to = metrics_of(contact(trace)) if metrics else None
-        where = self.folder / (_file_name(name) if name else self.name)
+        where = self.folder / (file_name(name, "trace") if name else self.name)
         golden_file = where.with_name(where.name + ".npz")
         metrics_file = where.with_name(where.name + ".json")
         missing = [f for f in (golden_file, metrics_file)[: 1 + metrics] if not f.exists()]
@@ -202,10 +202,6 @@ def _umask() -> int:
     mask = os.umask(0)
     os.umask(mask)
     return mask
-
-
-def _file_name(text: str) -> str:
-    return re.sub(r"[^\w.-]+", "_", text).strip("_.") or "trace"
 
 
 def _remedy() -> str:

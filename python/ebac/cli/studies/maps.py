@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from ebac._util.arguments import unknown
+from ebac._util.file_names import file_name
 from ebac.cli import by_name, from_options, interrupts, options, output
 from ebac.cli.files import ResultOptions
 
@@ -158,8 +159,9 @@ def _fill(draft: Path, maps: list[StabilityMap], to: ResultOptions, *, quiet: bo
         maps[0].base.save(draft / "scenario.toml")
         for found in maps:
             step(f"drawing {found.law}")
-            to.save(plot_map(found), draft, f"map-{found.law}")
-            found.to_npz(draft / f"map-{found.law}.npz")
+            name = f"map-{file_name(found.law)}"
+            to.save(plot_map(found), draft, name)
+            found.to_npz(draft / f"{name}.npz")
 
 
 def _show(maps: list[StabilityMap]) -> None:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from ebac.cli import by_name, from_options, interrupts, options, output, weak_motor
+from ebac.cli import by_name, changed_laws, from_options, interrupts, options, output, weak_motor
 from ebac.cli.files import PANEL, ResultOptions
 from ebac.cli.studies import replaced, short_runs, study_results
 
@@ -36,6 +36,7 @@ def study(
     law: Annotated[
         list[str] | None, options.laws("direct, tca, tca-damped, eba, ebac", panel=_WHAT)
     ] = None,
+    change: changed_laws.Change = None,
     condition: Annotated[
         list[str] | None,
         options.conditions(
@@ -74,12 +75,14 @@ def study(
 
     * `ebac demo hands`, then `ebac study --population hands.csv --json`: your own hands
 
+    * `ebac study --law tca-damped --change kp=0 --change kp=0,virtual_damping=60`: a law with other parameters
+
     * `ebac study --law ebac --out big`, and after Ctrl-C the same with `--resume`
     """
     from ebac.studies.study import LAWS
 
     with output.refusing():
-        laws = by_name.laws(law or LAWS)
+        laws = changed_laws.beside(by_name.laws(law or LAWS), change or [])
         people = hands.operators(approach)
         given: dict[str, Any] = {
             "base": from_options.scenario(device, length),

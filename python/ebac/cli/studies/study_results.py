@@ -7,6 +7,7 @@ from itertools import chain, zip_longest
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from ebac._util.file_names import file_name
 from ebac.cli import output
 from ebac.cli.files import ResultOptions
 
@@ -39,7 +40,7 @@ def fill(draft: Path, study: Study, traces: int | None, to: ResultOptions, *, qu
             to.save(figure, draft, f"study-{name}")
         for failure in kept:
             step("keeping traces of failures")
-            name = f"failure-{failure.law}-{failure.condition}-{failure.operator}.npz"
+            name = f"failure-{file_name(failure.law)}-{failure.condition}-{failure.operator}.npz"
             study.trace(failure.run).to_npz(draft / name)
 
 

@@ -7,6 +7,7 @@ from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NoReturn, TypeAlias
 
+from ebac._util.file_names import file_name
 from ebac.cli import output, weak_motor
 from ebac.cli.files import ResultOptions, new_file
 
@@ -66,9 +67,10 @@ def write(
     files += ["wall.json", "scenario.toml"]
     for trace in traces:
         step(f"writing the log of {trace.law}")
-        trace.to_npz(folder / f"{trace.law}.npz")
-        trace.to_csv(folder / f"{trace.law}.csv")
-        files += [f"{trace.law}.npz", f"{trace.law}.csv"]
+        name = file_name(trace.law)
+        trace.to_npz(folder / f"{name}.npz")
+        trace.to_csv(folder / f"{name}.csv")
+        files += [f"{name}.npz", f"{name}.csv"]
     return files
 
 
@@ -86,7 +88,9 @@ def log_names(log: Path | None, names: list[str], *, force: bool = False) -> lis
 
     kind = extension(log, tuple(FORMATS))
     one = len(names) == 1
-    files = [log] if one else [log.with_name(f"{log.stem}-{name}{kind}") for name in names]
+    files = (
+        [log] if one else [log.with_name(f"{log.stem}-{file_name(name)}{kind}") for name in names]
+    )
     return [new_file("--log", file, force=force) for file in files]
 
 
@@ -134,7 +138,7 @@ def report_fault(error: LoopFault, out: Path | None) -> NoReturn:
     what = "; ".join(filter(None, [str(error).partition("; see")[0], error.remedy]))
     if out is None:
         output.fail(f"{error.trace.law}: {what}; its log is kept with --out", code=output.FAILED)
-    name = f"{error.trace.law}-fault.npz"
+    name = f"{file_name(error.trace.law)}-fault.npz"
     with output.results(out) as draft:
         if draft is not None:
             error.trace.to_npz(draft / name)

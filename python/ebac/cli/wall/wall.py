@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from ebac.cli import by_name, engine_options, from_options, options, output
+from ebac.cli import by_name, changed_laws, engine_options, from_options, options, output
 from ebac.cli.files import PANEL, ResultOptions
 from ebac.cli.wall import results as wall_results
 
@@ -28,6 +28,7 @@ def wall(
     engine: engine_options.EngineOptions,
     to: ResultOptions,
     law: Annotated[list[str] | None, options.laws(", ".join(DEFAULT_LAWS))] = None,
+    change: changed_laws.Change = None,
     through: Annotated[
         str | None,
         options.option(
@@ -62,6 +63,8 @@ def wall(
 
     * `ebac wall --law all --wall-stiffness 20000 --delay 2`: every law
 
+    * `ebac wall --law ebac --change guard=off --change fast_stiffness=0`: a law beside itself with other parameters
+
     * `ebac wall --hand finger --hand-target 0.02 --json`: a finger, as JSON
 
     * `ebac wall --law ebac --log ebac.mcap`: a log for PlotJuggler or Foxglove
@@ -75,7 +78,7 @@ def wall(
     * `ebac wall --out first`, then `ebac wall --scenario first/scenario.toml --seed 7`: another seed
     """
     with output.refusing():
-        laws = by_name.laws(law or DEFAULT_LAWS)
+        laws = changed_laws.beside(by_name.laws(law or DEFAULT_LAWS), change or [])
         logs = wall_results.log_names(log, list(laws), force=to.force)
         chosen = from_options.scenario(setup, engine)
         _check_length(chosen)
@@ -184,7 +187,9 @@ def _simulate(
         step(f"simulating {name}")
         with warnings.catch_warnings(record=True) as caught:
             warnings.simplefilter("always", UserWarning)
-            traces.append(simulate(scenario, law, through=through))
+            trace = simulate(scenario, law, through=through)
+        trace.law = name  # with what was changed of it
+        traces.append(trace)
         for one in caught:
             if "engine" in str(one.message):  # the load of the bus has been reported
                 output.console(stderr=True).print(
