@@ -19,29 +19,12 @@ if TYPE_CHECKING:
     from ebac.simulation import LoopFault
     from ebac.trace import Trace
 
-Lines: TypeAlias = tuple[tuple[str, str, str, str], ...]
+Lines: TypeAlias = Sequence[tuple[str, str, str, str]]
 
-#: Lines of the table: label, attribute of a contact, its unit, what to say where there is none; with nothing no line.
-LINES = (
-    ("rest", "rest_m", "m", "-"),
-    ("ideal rest", "ideal_m", "m", "-"),
-    ("deviation", "deviation_m", "m", "-"),
-    ("swing", "swing_m", "m", "-"),
-    ("force swing", "force_swing_N", "N", "-"),
-    ("settled", "settled_s", "s", "never"),
-    ("force settled", "force_settled_s", "s", "never"),
-    ("ripple", "ripple_N", "N", "-"),
-    ("force jumps", "jumps", "1", "-"),
-    ("vibration/threshold", "perceived", "threshold", "-"),
-    ("deepest", "peak_m", "m", "-"),
-    ("stiffness on impact", "impact_share", "share", "-"),
-    ("limit cycle", "limit_cycle", "Hz", "none"),
-    ("least energy", "least_energy_J", "J", "-"),
-    ("drawn", "drawn_J", "J", ""),
-    ("force limited", "clamped_share", "share", "-"),
-)
-
-
+#: Numbers of a contact that are left to its own text: the table has a column for each of several laws.
+LEFT_OUT = (
+    "allowed_m", "force_rest_N", "ripple_rms_N", "ripple_high_N", "most_drawn_J", "saturated"
+)  # fmt: skip
 #: More laws than this side by side do not fit 80 columns.
 LAWS_ABREAST = 4
 
@@ -227,7 +210,9 @@ def show_contacts(contacts: list[Contact]) -> None:
 
 def show_table(columns: Mapping[str, Contact], *, verdict: bool = True) -> None:
     """Print contacts side by side, each under its heading, and their verdict."""
-    grid = _lines(LINES, columns)
+    from ebac.metrics.contact_result import LINES
+
+    grid = _lines([line for line in LINES if line[1] not in LEFT_OUT], columns)
     if verdict:
         grid.add_section()
         alone = len(columns) == 1
