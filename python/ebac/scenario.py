@@ -9,6 +9,8 @@ from math import cos
 from pathlib import Path
 from typing import Any, Final, Literal, Self, TypeAlias
 
+import numpy as np
+
 from ebac._core import (
     Corner,
     Device,
@@ -135,6 +137,9 @@ class Scenario:
         """Check types and ranges."""
         object.__setattr__(self, "hand", as_hand(self.hand))
         object.__setattr__(self, "environment", as_environment(self.environment))
+        for name in (*_NUMBERS, "observer"):
+            if isinstance(value := getattr(self, name), np.generic):
+                object.__setattr__(self, name, value.item())
         parts: dict[str, tuple[type, ...]] = {
             "device": (Device,),
             "hand": (Hand,),

@@ -345,3 +345,10 @@ def test_the_same_run_under_a_law_in_python_gives_the_same_file(tmp_path: Path) 
         replayed = ebac.replay(tmp_path / f"{i}.mcap", Lagging(0.3))
         assert replayed.law_repr == trace.law_repr
     assert files[0] == files[1]
+
+
+def test_a_column_takes_a_list(trace: ebac.Trace) -> None:
+    still = [0.0] * len(trace)
+    assert (trace.with_column("t", still)["t"] == 0).all()
+    with pytest.raises(ValueError, match=r"t: shape \(1,\), must be"):
+        trace.with_column("t", [0.0])

@@ -4,6 +4,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 
 import ebac
@@ -76,6 +77,7 @@ def trace() -> Any:
             lambda t: E.sensor.Sensor.open(3),
             "ebac.sensor.Sensor takes a SensorConfig, not 3 (int)",
         ),
+        (lambda t: E.drives.parse_eds(5), "parse_eds takes the text of an EDS, not 5 (int)"),
         (lambda t: t.axis("x", "y"), "axis = 'y': must be a whole number"),
         (lambda t: E.contact(t, axis="y"), "axis = 'y': must be a whole number"),
         (lambda t: t.head("a"), "rows = 'a': must be a whole number"),
@@ -272,6 +274,36 @@ def test_a_value_of_another_type_is_refused_by_name(
             lambda t: W.World(W.Plane()).walk([[0, 0, 0]] * 2, t=[[0, 1]]),
             ValueError,
             "World.walk: t: shape (1, 2): must be (n,)",
+        ),
+        (
+            lambda t: t.between(0, 10**400),
+            ValueError,
+            "time = 1000000000...: is too large for a number",
+        ),
+        (
+            lambda t: E.drives.Traffic(name="PDO", size=9, rate=1e3),
+            ValueError,
+            "PDO: size = 9 bytes: must lie in [0, 8] bytes",
+        ),
+        (
+            lambda t: E.drives.Traffic(name="PDO", size=8, rate=float("nan")),
+            ValueError,
+            "PDO: rate = nan Hz: must be finite, at least 0 Hz",
+        ),
+        (
+            lambda t: E.gastroscope.Slave(start=float("nan")),
+            ValueError,
+            "Slave.start = nan m: must lie in [0, 1] m",
+        ),
+        (
+            lambda t: E.Operators(
+                m_kg=np.ma.masked_array([0.1, 0.2], [0, 1]),
+                b_Ns_per_m=1,
+                k_N_per_m=100,
+                target_m=0.02,
+            ),
+            ValueError,
+            "row 2: m_kg is masked: leave the row out, or give its value",
         ),
         (lambda t: t.head(-3), ValueError, "rows = -3: must be at least 0"),
         (

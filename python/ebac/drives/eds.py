@@ -7,6 +7,7 @@ import re
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 
+from ebac._util.arguments import require
 from ebac.drives.data_sheet import Sheet, SheetEntry
 from ebac.drives.errors import ProfileError
 
@@ -82,7 +83,10 @@ def parse_eds(text: str, *, name: str = "EDS") -> Sheet:
     ------
     ProfileError
         When it holds no object dictionary.
+    TypeError
+        For what is no text.
     """
+    require(text, str, "parse_eds", "the text of an EDS")
     sections = _sections(text)
     device = sections.get("deviceinfo", {})
     entries: dict[tuple[int, int], SheetEntry] = {}

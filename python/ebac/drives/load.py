@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
+from math import inf
 
 from ebac._core import REFUSED_LOAD, WARNED_LOAD
 from ebac.drives.frame_length import frame_bits
@@ -23,12 +24,24 @@ class Traffic:
     size : int
         Data [bytes], 0 to 8.
     rate : float
-        How often it comes, at most [Hz].
+        How often it comes, at most [Hz], at least 0.
+
+    Raises
+    ------
+    ValueError
+        For a size or a rate out of range.
     """
 
     name: str
     size: int
     rate: float
+
+    def __post_init__(self) -> None:
+        """Check size and rate."""
+        if self.size not in range(9):
+            raise ValueError(f"{self.name}: size = {self.size} bytes: must lie in [0, 8] bytes")
+        if not 0 <= self.rate < inf:
+            raise ValueError(f"{self.name}: rate = {self.rate:g} Hz: must be finite, at least 0 Hz")
 
     @property
     def bits(self) -> int:

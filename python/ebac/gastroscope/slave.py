@@ -100,12 +100,19 @@ class Slave:
     lumen : Lumen, optional
         The patient.
     start : float
-        Place of the camera at the start [m], where it lies at rest, with straight tendons.
+        Place of the camera at the start [m], [0, 1], where it lies at rest, with straight tendons.
+
+    Raises
+    ------
+    ValueError
+        For a start out of its range.
     """
 
     def __init__(
         self, scope: Scope | None = None, lumen: Lumen | None = None, start: float = 0.09
     ) -> None:
+        if not 0 <= start <= 1:
+            raise ValueError(f"Slave.start = {start} m: must lie in [0, 1] m")
         self.lumen = Lumen() if lumen is None else lumen
         self._core = _Slave(Scope() if scope is None else scope, self.lumen.core, start)
 

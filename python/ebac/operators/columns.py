@@ -115,7 +115,10 @@ def read_csv(path: str | Path) -> dict[str, list[str]]:
 
 
 def numbers(name: str, values: ArrayLike) -> NDArray[np.float64]:
-    """Return a column as numbers; what is none is named by row, counted from 1."""
+    """Return a column as numbers; what is none, or masked, is named by row, counted from 1."""
+    if np.ma.is_masked(values):
+        row = 1 + int(np.flatnonzero(np.ma.getmaskarray(np.ma.asarray(values)))[0])
+        raise ValueError(f"row {row}: {name} is masked: leave the row out, or give its value")
     try:
         return np.array(values, float)
     except (TypeError, ValueError):

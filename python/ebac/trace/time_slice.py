@@ -9,6 +9,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ebac._util.arguments import number
+
 
 def rows_between(
     t: NDArray[np.float64], start: float | None, stop: float | None, step: object = None
@@ -19,6 +21,8 @@ def rows_between(
     times: list[Any] = [one for one in (start, stop) if one is not None]
     if not all(isinstance(time, (Real, np.number)) for time in times):
         raise TypeError(f"trace[{start!r}:{stop!r}]: must be times [s], as in trace[1.0:2.5]")
+    for time in times:
+        number("time", time)
     check_order(start, stop)
     first = 0 if start is None else int(np.searchsorted(t, start))
     last = len(t) if stop is None else int(np.searchsorted(t, stop))

@@ -8,7 +8,8 @@ from html import escape
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Self, overload
 
-from numpy.typing import NDArray
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from ebac import _core
 from ebac._util.arguments import unknown_name, whole
@@ -166,14 +167,14 @@ class Trace:
         part = {name: values[first:last] for name, values in self._data.items()}
         return self._with(part)
 
-    def with_column(self, name: str, values: NDArray[Any]) -> Self:
+    def with_column(self, name: str, values: ArrayLike) -> Self:
         """Return the trace with other values in a column it has.
 
         Parameters
         ----------
         name : str
             Of the column.
-        values : array
+        values : array_like
             In the shape and unit of the column.
 
         Raises
@@ -183,9 +184,10 @@ class Trace:
         ValueError
             When the shape is another.
         """
-        if values.shape != self[name].shape:
-            raise ValueError(f"{name}: shape {values.shape}, must be {self[name].shape}")
-        return self._with({**self._data, name: values})
+        column = np.asarray(values)
+        if column.shape != self[name].shape:
+            raise ValueError(f"{name}: shape {column.shape}, must be {self[name].shape}")
+        return self._with({**self._data, name: column})
 
     def _with(self, data: dict[str, NDArray[Any]]) -> Self:
         other = copy(self)
