@@ -30,6 +30,8 @@ def test_a_table_says_how_the_bodies_were_met() -> None:
     table = ran("wall --world sphere --law ebac --no-files")
     for line in ("depth", "normal error", "stored at most", "ticks come through"):
         assert line in table
+    assert "every world is met head-on, as a wall" in " ".join(table.split())
+    assert "head-on" not in ran("wall --world sphere --device joystick-3 --law ebac --no-files")
     assert "normal error" not in ran("wall --law ebac --no-files")
 
 

@@ -265,6 +265,12 @@ def test_widths_on_paper(width: str | float, inches: float, run: Run, tmp_path: 
         assert image.width / 300 == pytest.approx(inches, abs=0.01)
 
 
+def test_four_laws_in_a_column_fit_a_page(run: Run, tmp_path: Path) -> None:
+    figure = plot_walls([run(law) for law in ("tca", "tca-damped", "eba", "ebac")])
+    with Image.open(save(figure, tmp_path / "x.png", width="single")) as image:
+        assert 200 < image.height / 300 * 25.4 <= 230.1
+
+
 @pytest.mark.slow
 def test_saving_leaves_the_figure_as_it_was(run: Run, tmp_path: Path) -> None:
     def state() -> list[object]:

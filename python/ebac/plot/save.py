@@ -32,6 +32,8 @@ PRINT_DPI = 300
 SMALLEST, LARGEST = 6.0, 9.0
 #: Narrower and wider figures are refused [mm].
 NARROWEST, WIDEST = 40.0, 1000.0
+#: Height of a journal's page [mm]: no figure is made higher than that when it is made narrower.
+TALLEST = 230.0
 _MM = 1 / 25.4
 #: Panels of a figure narrower than this stand below one another [in].
 NARROW = 5.0
@@ -150,11 +152,11 @@ def fitted(figure: Figure, inches: float | None = None, *, title: bool = True) -
 
 
 def _resize(figure: Figure, inches: float, undo: Undo) -> float:
-    """Set the width and return the size of a legend's letters; the height follows more slowly."""
+    """Set the width and return the size of a legend's letters; the height follows more slowly, down to a page's."""
     wide, high = figure.get_size_inches()
     factor = inches / wide
     undo.append(lambda: figure.set_size_inches(wide, high))
-    figure.set_size_inches(inches, high * factor**0.6)
+    figure.set_size_inches(inches, min(high * factor**0.6, max(TALLEST / 25.4, high * factor)))
     for ax in figure.axes:
         for axis in (ax.xaxis, ax.yaxis):
             _tick_letters(ax, axis.axis_name, factor, undo)

@@ -155,6 +155,11 @@ def show(
         part = slice(first, first + LAWS_ABREAST)
         laws = [contact.law for contact in contacts[part]]
         show_lines(BODY_LINES, dict(zip(laws, (bodies or [])[part], strict=True)))
+    if bodies and scenario.device.axes == 1:
+        output.say(
+            "The device has one axis, on which every world is met head-on, as a wall; for more, see "
+            "docs/how-to/three_axes.md."
+        )
     if bodies:
         output.say(
             "depth: mean over the last 30 %; normal error: the largest angle between force and surface then, beyond 90 "
