@@ -7,7 +7,8 @@ from dataclasses import dataclass
 from printed import NOISE, NOISY, Printed, table
 
 from ebac.studies import scenario_changes as to
-from ebac.studies.conditions import Condition, conditions
+from ebac.studies.condition import Condition
+from ebac.studies.conditions import conditions
 
 #: Conditions of the second table: a hand that presses at once, two that sway, two that press slowly.
 HARD = ("d2K35", "slow-waves", "slow-waves-K20", "slow-press-K20", "slow-press-d2K20")

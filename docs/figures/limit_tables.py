@@ -9,7 +9,8 @@ from printed import NOISE, NOISY, Printed, Row, of_two, table
 
 import ebac
 from ebac.studies import scenario_changes as to
-from ebac.studies.conditions import Condition, conditions
+from ebac.studies.condition import Condition
+from ebac.studies.conditions import conditions
 
 #: The walls of the searches: 10 and 20 kN/m at one and two samples of delay.
 WALLS = ("d1K10", "d2K10", "d1K20", "d2K20")

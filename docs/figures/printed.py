@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import Any
 
 import ebac
-from ebac.studies.conditions import Condition
+from ebac.studies.condition import Condition
 
 MARKED = re.compile(r"(<!-- table: ([\w-]+) -->\n).*?(<!-- end -->)", re.S)
 Row = dict[str, Any]

@@ -38,7 +38,7 @@ from ebac.plot import (
 )
 from ebac.plot.ablation import _text
 from ebac.plot.save import balanced, fitted, millimetres
-from ebac.plot.study import _energy
+from ebac.plot.study_overview import _energy
 from ebac.plot.style import BETTER, OTHER_LAWS, QUANTITIES, SAME, WORSE, colours
 from ebac.studies import MEASURES, ablation, stiffest, study, worst
 from ebac.studies.maps import stability_map

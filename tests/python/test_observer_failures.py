@@ -10,7 +10,7 @@ import ebac
 from ebac.cli import app
 from ebac.studies import CONDITIONS, GROUPS
 from ebac.studies import scenario_changes as to
-from ebac.studies.conditions import Condition
+from ebac.studies.condition import Condition
 
 BASE = ebac.Scenario(device=ebac.Device(sensor=ebac.ForceSensor(noise=0.03)))
 HANDS = ebac.Operators.grid()

@@ -1,7 +1,8 @@
 """Laws over whole populations of hands, under named conditions."""
 
 from ebac.studies.ablation import Ablation, AblationRow, Piece, ablation, pieces
-from ebac.studies.conditions import CONDITIONS, GROUPS, Condition, conditions
+from ebac.studies.condition import Condition
+from ebac.studies.conditions import CONDITIONS, GROUPS, conditions
 from ebac.studies.engines import EngineRow, Engines, engines
 from ebac.studies.hand_search import WorstHand
 from ebac.studies.measures import MEASURES, Measure

@@ -1,95 +1,16 @@
-"""The conditions of a study: named changes to the reference scenario, each with a line of what it is."""
+"""The conditions that have a name, in groups, and how they are found by it."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
+from dataclasses import replace
 
 from ebac._util.arguments import require, unknown
 from ebac.hands import FingerPad, LetGo, NonlinearGrip, Reflex
 from ebac.studies import scenario_changes as to
+from ebac.studies.condition import AS_GIVEN, Condition, cell, cell_of, wall_of
 from ebac.studies.condition_grammar import GRAMMAR, written_out
 from ebac.studies.scenario_changes import Belief, Change
-
-if TYPE_CHECKING:
-    from ebac.operators import Operators
-    from ebac.scenario import Scenario
-
-
-@dataclass(frozen=True, kw_only=True)
-class Condition:
-    """Changes for every hand, and the facts the laws are designed from.
-
-    Attributes
-    ----------
-    name, summary : str
-        How it is called, and what it is in a line.
-    change : callable
-        A scenario with a hand on it in, the scenario to simulate out.
-    believed : callable
-        That scenario in, the (DeviceFacts, Timing) for which laws are designed out; default: the truth.
-    drives : tuple of callable
-        Changes that replace the population: one run each instead of one run per hand.
-    """
-
-    name: str
-    summary: str
-    change: Change
-    believed: Belief = to.truth
-    drives: tuple[Change, ...] = ()
-
-    def scenarios(self, operators: Operators, base: Scenario) -> list[Scenario]:
-        """Return what is simulated under this condition.
-
-        Parameters
-        ----------
-        operators : Operators
-            The hands; a condition with `drives` replaces them.
-        base : Scenario
-            What the condition changes.
-        """
-        if self.drives:
-            return [self.made(drive(self.change(base))) for drive in self.drives]
-        return [self.made(self.change(one)) for one in operators.scenarios(base)]
-
-    def made(self, changed: Scenario) -> Scenario:
-        """Return a changed scenario with its observer, if it has one, designed from the believed facts."""
-        from ebac.scenario import Scenario
-
-        require(changed, Scenario, f"condition {self.name}", "a change that returns a Scenario")
-        return to.observer_of(changed, *self.believed(changed))
-
-
-def cell(delay: int, damping: float | None, stiffness: float) -> Change:
-    """Set delay [samples], device damping [N s/m] and wall stiffness [N/m]; None leaves the device's damping."""
-    own = () if damping is None else (to.device("mechanics", damping=damping),)
-    return to.together(to.timing(delay=delay), *own, to.wall(stiffness=stiffness))
-
-
-def _cell(name: str, delay: int, damping: float | None, kilo: float) -> Condition:
-    samples = "1 sample" if delay == 1 else f"{delay} samples"
-    own = "" if damping is None else f"device damping {damping:g} N s/m, "
-    summary = f"{samples} of delay, {own}wall {kilo:g} kN/m"
-    return Condition(name=name, summary=summary, change=cell(delay, damping, 1e3 * kilo))
-
-
-#: Nothing but the hand is changed; a hand on it begins where the population says.
-AS_GIVEN = Condition(
-    name="as-given",
-    summary="delay, device and wall as in the scenario",
-    change=to.together(),
-)
-
-
-def wall_of(stiffness: float) -> Condition:
-    """Return the condition that changes the stiffness of the wall [N/m] and nothing else."""
-    kilo = f"{1e-3 * stiffness:g}"
-    return Condition(
-        name=f"K{kilo}",
-        summary=f"wall {kilo} kN/m, all else as in the scenario",
-        change=to.wall(stiffness=stiffness),
-    )
 
 
 def _robust(
@@ -110,14 +31,14 @@ def _robust(
 
 
 _FIVE = [
-    _cell("d1K10", 1, None, 10),
-    _cell("d0K10", 0, None, 10),
-    _cell("d2K10", 2, None, 10),
-    _cell("d1K20", 1, None, 20),
-    _cell("d1b1K5", 1, 1, 5),
+    cell_of("d1K10", 1, None, 10),
+    cell_of("d0K10", 0, None, 10),
+    cell_of("d2K10", 2, None, 10),
+    cell_of("d1K20", 1, None, 20),
+    cell_of("d1b1K5", 1, 1, 5),
 ]
 _CELLS = [
-    _cell(f"d{d}b{b}K{k}", d, b, k) for d in (0, 1, 2) for b in (1, 2, 4) for k in (2, 5, 10, 20)
+    cell_of(f"d{d}b{b}K{k}", d, b, k) for d in (0, 1, 2) for b in (1, 2, 4) for k in (2, 5, 10, 20)
     if (d, b, k) != (1, 1, 5)  # already one of the five
 ]  # fmt: skip
 
@@ -336,4 +257,4 @@ def _named(name: str) -> list[Condition]:
         return [CONDITIONS[numbers.name]]
     if numbers.delay is None:
         return [wall_of(1e3 * numbers.kilo)]
-    return [_cell(numbers.name, numbers.delay, numbers.damping, numbers.kilo)]
+    return [cell_of(numbers.name, numbers.delay, numbers.damping, numbers.kilo)]

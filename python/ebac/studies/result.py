@@ -19,7 +19,7 @@ from ebac.laws.tuned_laws import on_its_observer
 from ebac.operators import Operators
 from ebac.scenario import Scenario
 from ebac.simulation import LoopFault, simulate
-from ebac.studies.conditions import Condition
+from ebac.studies.condition import Condition
 from ebac.studies.sweeps.measure import Columns
 from ebac.studies.sweeps.result import SweepResult
 from ebac.trace import Trace

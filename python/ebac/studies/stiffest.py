@@ -15,7 +15,7 @@ from ebac._util.progress import Progress
 from ebac.laws import LAWS
 from ebac.operators import Operators
 from ebac.scenario import Scenario
-from ebac.studies.conditions import wall_of
+from ebac.studies.condition import wall_of
 from ebac.studies.stiffest_result import Stiffest
 from ebac.studies.study import study
 from ebac.studies.sweeps.run import Laws

@@ -15,7 +15,7 @@ from ebac._util.arguments import require
 from ebac._util.progress import Progress
 from ebac.operators import Operators
 from ebac.scenario import Scenario
-from ebac.studies.conditions import Condition
+from ebac.studies.condition import Condition
 from ebac.studies.conditions import conditions as find
 from ebac.studies.ideal import ideal_contacts, settled_in_time
 from ebac.studies.result import Study

@@ -15,7 +15,8 @@ from ebac.laws import AnyLaw, design, law_name
 from ebac.laws.making import reserve_of
 from ebac.laws.tuned_laws import on_its_observer
 from ebac.scenario import Scenario
-from ebac.studies.conditions import Condition, conditions
+from ebac.studies.condition import Condition
+from ebac.studies.conditions import conditions
 from ebac.studies.families import PULL, families, find_family
 from ebac.studies.hand_search import HandSearch, WorstHand, every_row
 from ebac.studies.scenario_changes import truth

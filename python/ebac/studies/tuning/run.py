@@ -9,7 +9,7 @@ from ebac._util.progress import Progress
 from ebac.laws import LAWS, AnyLaw, Variant
 from ebac.operators import Operators
 from ebac.scenario import Scenario
-from ebac.studies.conditions import Condition
+from ebac.studies.condition import Condition
 from ebac.studies.conditions import conditions as find
 from ebac.studies.study import study
 from ebac.studies.tuning.ranges import RANGES, Range, Ranges
