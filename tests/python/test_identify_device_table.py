@@ -128,3 +128,17 @@ def test_a_lag_that_a_csv_file_does_not_say_is_named(tmp_path: Path) -> None:
 def test_no_lag_is_named_where_there_is_none(tmp_path: Path) -> None:
     ebac.datasets.write("device", tmp_path)
     assert json.loads(shown(str(tmp_path / "device.csv"), "--json"))["lag_seems_s"] is None
+
+
+@pytest.mark.parametrize("gravity", [9.81, -2.0, 0.0])
+def test_the_file_carries_the_weight_that_was_found(gravity: float, tmp_path: Path) -> None:
+    mechanics = ebac.Mechanics(damping=3, coulomb=0.4, handle_mass=0.1, gravity=gravity)
+    moved(ebac.Device(mechanics=mechanics)).save(tmp_path / "log.npz")
+    _, _, table = shown(str(tmp_path / "log.npz")).partition("In the file of the device:\n")
+    device = ebac.Scenario.from_toml(table).device
+    weight = device.mechanics.handle_mass * device.mechanics.gravity
+    carried = device.compensation.gravity_mass * device.mechanics.gravity
+    assert weight == pytest.approx(0.1 * gravity, rel=0.02, abs=0.003)
+    assert 0.9 * abs(weight) <= abs(carried) <= abs(weight)
+    assert carried * gravity >= 0
+    assert 0.3 < device.compensation.friction <= 0.4

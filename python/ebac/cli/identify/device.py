@@ -52,7 +52,7 @@ def device(
         rotor = _rotor(recording, scenario)
         result = fit_device(recording)
         late = sensor_lag(result) if reading.lag is None else None
-    table = _mechanics(result, *rotor)
+    table = _tables(result, *rotor)
     notes = [*_notes(result), *([] if late is None else [late.sentence])]
     files = _write(to, result, notes, table)
     if as_json:
@@ -106,24 +106,6 @@ def _notes(result: DeviceResult) -> list[str]:
     return [
         *(result.misses or [explained]),
         *([alone] if result.recording.motor is None else []),
-        *_static(result),
-    ]
-
-
-def _static(result: DeviceResult) -> list[str]:
-    if result.recording.rotary or result.impossible:
-        return []
-    static = result.compensation
-    carried = (
-        f" Weight and gravity_mass are carried along {'+x' if result.gravity > 0 else '-x'}: Mechanics(gravity="
-        f"{result.gravity:.5g} m/s^2). The simulated device weighs what its handle_mass does: gravity = weight / "
-        "handle_mass gives it the weight that was found."
-        if static.gravity_mass > 0
-        else ""
-    )
-    return [
-        f"For the device: Compensation(friction={static.friction:.4g} N, gravity_mass={static.gravity_mass:.4g} kg), "
-        f"the lower bounds of what was found.{carried}",
     ]
 
 
@@ -139,14 +121,16 @@ def _rotor(recording: Recording, file: Path | None) -> tuple[float, str]:
     )
 
 
-def _mechanics(result: DeviceResult, rotor: float, whose: str) -> str:
-    """Return what was found as the table of a device file; "" for a joint, and where no device is like that.
+def _tables(result: DeviceResult, rotor: float, whose: str) -> str:
+    """Return what was found as tables of a device file; "" for a joint, and where no device is like that.
 
-    Damping and friction are those that are surely there, because laws and observer count with them.
+    Damping and friction are those that are surely there, because laws and observer count with them; what a motor
+    carries and compensates is at most that.
     """
     if result.recording.rotary or result.impossible:
         return ""
     lines = ["[device.mechanics]"]
+    handle = 0.0  # kg
     for name, key in (("M_h", "handle_mass"), ("B_h", "damping"), ("coulomb", "coulomb")):
         found = result.estimates.get(name)
         if found is None:
@@ -154,6 +138,7 @@ def _mechanics(result: DeviceResult, rotor: float, whose: str) -> str:
         value, why = found.low, ", the lower end of the interval"
         if name == "M_h":
             value, why = found.value - rotor, f": M_h less {rotor:.4g} kg, the rotor {whose}"
+            handle = value if found.determined else 0.0
         if not found.determined:
             lines.append(f"# {key}: {name} is not determined by this log")
         elif name == "M_h" and value <= 0:
@@ -162,6 +147,19 @@ def _mechanics(result: DeviceResult, rotor: float, whose: str) -> str:
             )
         else:
             lines.append(f"{key} = {max(value, 0.0):.4g} # {found.unit}{why}")
+    static = result.compensation
+    carried = static.gravity_mass * result.gravity  # N
+    gravity = result.gravity
+    if carried and handle > 0:
+        gravity = result.estimates["weight"].value / handle
+        lines.append(f"gravity = {gravity:.4g} # m/s^2: gives the handle the weight that was found")
+    elif carried:
+        lines.append(f"gravity = {gravity:.4g} # m/s^2, the way in which the weight pulls")
+    lines += ["[device.compensation]", f"friction = {static.friction:.4g} # N, as coulomb"]
+    if carried:
+        lines.append(
+            f"gravity_mass = {carried / gravity:.4g} # kg: times gravity the least weight, {abs(carried):.4g} N"
+        )
     return "\n".join(lines)
 
 
