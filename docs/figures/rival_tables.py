@@ -30,7 +30,6 @@ SWEPT: dict[str, list[ebac.Variant | str]] = {
     ],
     "lag-compensator": [
         "lag-compensator-tuned-observer",
-        "lag-compensator-tuned-stiff-observer",
         *(
             ebac.Variant(
                 "lag-compensator",
@@ -73,6 +72,12 @@ WALLS: dict[str, Any] = {"dampings": (0.0, 10.0, 20.0), "rungs": 16}
 EXPLORERS, RESERVES = 30, (2e-3, 3e-3, 5e-3, 10e-3)
 LET_GO, PUMPING = ("slow-let-go", "slow-let-go-d2", "slow-let-go-K20"), "pumping"
 DELAYS = (0, 1, 2)
+#: Conditions in which hands sway, or press slowly, and what a table calls them.
+SWAYS = {
+    "slow-waves": "sways at 10 kN/m",
+    "slow-waves-K20": "sways at 20 kN/m",
+    "slow-press-d2K20": "presses slowly, 20 kN/m, 2 samples",
+}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -155,6 +160,37 @@ def tuned_cells(printed: Printed) -> str:
         [code(law), form.word, *(_counts([part]) for part in parts)] for law, form, parts in found
     ]
     return table(heads, rows)
+
+
+def tuned_impact(printed: Printed) -> str:
+    """How soon and how stiff the tuned laws on the observer are, condition by condition."""
+    form = FORMS[1]
+    rows = [
+        [code(law), *(_met(part) for part in form.of(law, printed))] for law in (*RANGES, "ebac")
+    ]
+    return table(["law", *(code(name) for name in TUNING_CONDITIONS)], rows)
+
+
+def _met(part: Row) -> str:
+    return f"{part['settled_in_time']}, {100 * (part['median_impact_share'] or 0):.0f} %"
+
+
+def tuned_sways(printed: Printed) -> str:
+    """The best rivals and `ebac` with hands that sway, or press slowly."""
+    laws = ("tca-damped-tuned-observer", "lag-compensator-tuned-observer", "ebac")
+    rows = printed.rows(f"study -c {','.join(SWAYS)} {NOISE} --law {','.join(laws)}")
+    return table(
+        ["law", *SWAYS.values()],
+        [[code(law), *(_swayed(row) for row in rows if row["law"] == law)] for law in laws],
+    )
+
+
+def _swayed(row: Row) -> str:
+    drawn = 1e3 * (row["most_drawn_J"] or 0)
+    return (
+        f"{of_two(row['good'], row['exact_and_still'])}, {row['settled_in_time']}; "
+        f"{fixed(drawn, 0 if drawn > 10 else 1)} mJ"
+    )
 
 
 def _all_six(parts: list[Row]) -> list[str]:

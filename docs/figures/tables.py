@@ -40,6 +40,8 @@ TABLES: dict[str, Callable[[Printed], str]] = {
     "grid": populations.grid,
     "tuned": rivals.tuned,
     "tuned-cells": rivals.tuned_cells,
+    "tuned-impact": rivals.tuned_impact,
+    "tuned-sways": rivals.tuned_sways,
     "tuned-values": rivals.tuned_values,
     "hands": story.hands,
     "cells": populations.cells,

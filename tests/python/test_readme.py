@@ -38,7 +38,7 @@ def test_the_table_is_what_the_study_gives() -> None:
         assert [row["law"] for row in rows] == [
             "tca",
             "tca-damped",
-            "lag-compensator-tuned-stiff-observer",
+            "lag-compensator-tuned-observer",
             "ebac",
         ]
         assert still[1:] == [str(row["exact_and_still"]) for row in rows]
@@ -56,7 +56,7 @@ def test_the_worst_hands_of_the_table_are_those_that_are_found(condition: str, p
     what, *shown = table()[place]
     assert what == "drawn by the worst hand of a search"
     noisy = ebac.Scenario(device=ebac.Device(sensor=ebac.ForceSensor(noise=0.03)))
-    laws = ["tca", "tca-damped", "lag-compensator-tuned-stiff-observer", "ebac"]
+    laws = ["tca", "tca-damped", "lag-compensator-tuned-observer", "ebac"]
     found = [ebac.worst(law, condition, base=noisy).hands for law in laws]
     assert shown == [_drawn(hands[0].energy_J) for hands in found]
     what, *shown = table()[place + 1]

@@ -1,4 +1,4 @@
-"""Laws whose parameters a search found, `ebac tune` or another, by names such as "tca-damped-tuned"."""
+"""Laws with the parameters that `ebac tune` found, by names such as "tca-damped-tuned"."""
 
 from __future__ import annotations
 
@@ -21,8 +21,8 @@ def tuned_laws() -> tuple[str, ...]:
 def tuned(name: str, delay: int) -> tuple[str, dict[str, Any]]:
     """Return the law behind a name of `tuned_laws`, and its parameters for the nearest delay [samples].
 
-    They were searched for the reference device at 1 kHz with `ebac tune all --device-noise 0.03 --json`, and with
-    `--observer-every-law`; other devices need a search of their own.
+    They were searched for the reference device at 1 kHz with `ebac tune all --device-noise 0.03 --evaluations 240
+    --json`, and with `--observer-every-law`; other devices need a search of their own.
     """
     law, end, more = name.partition("-tuned")
     rows = [row for row in _tuned_rows(end + more) if row["law"] == law]
@@ -33,10 +33,7 @@ def tuned(name: str, delay: int) -> tuple[str, dict[str, Any]]:
 def tuned_text(name: str) -> str:
     """Return what a law of `tuned_laws` is, in a sentence without its full stop."""
     law, _, end = name.partition("-tuned")
-    found = "that `ebac tune` found"
-    if name.endswith(_STIFF):
-        found = "of a search for walls that are quiet, in time and stiff on impact,"
-    text = f"{name} is {law} with the parameters {found} for the reference device at 1 kHz"
+    text = f"{name} is {law} with the parameters that `ebac tune` found for the reference device at 1 kHz"
     return text + (", acting on the observer's estimate" if end else "")
 
 
@@ -75,14 +72,8 @@ def on_its_observer(scenario: Scenario, law: AnyLaw) -> Scenario:
     return scenario.replace(observer=own and own.replace(every_law=True))
 
 
-#: How the name of a law ends that was searched for stiffness on impact as well.
-_STIFF = "-tuned-stiff-observer"
-#: What searches found, by the ending of the laws' names: `ebac tune`, and docs/figures/stiff_rival.py.
-_TUNED = {
-    "-tuned": "tuned_rivals.json",
-    "-tuned-observer": "tuned_rivals_observer.json",
-    _STIFF: "tuned_stiff_observer.json",
-}
+#: What the searches found, by the ending of the laws' names.
+_TUNED = {"-tuned": "tuned_rivals.json", "-tuned-observer": "tuned_rivals_observer.json"}
 
 
 @cache

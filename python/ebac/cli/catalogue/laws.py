@@ -122,8 +122,7 @@ def _show_all(rows: list[dict[str, Any]]) -> None:
     output.say(f"Tuned: {', '.join(tuned_laws())}.")
     output.say(
         "LAW-tuned is LAW with the parameters that `ebac tune` found for the reference device at 1 kHz; "
-        "LAW-tuned-observer the same acting on the observer's estimate, LAW-tuned-stiff-observer with those of a "
-        "search for walls that are stiff on impact, too."
+        "LAW-tuned-observer the same acting on the observer's estimate."
     )
     output.say("`ebac laws NAME` shows one in detail.")
 

@@ -69,7 +69,8 @@ def tune(
 
     A simulation. The parameters are searched on random training hands; the table shows the 60 hands of the grid, with
     the parameters of the design and with those found. The number of good hands, which are exact and quiet in position
-    and force, counts most; then settling, energy drawn and the force swing at rest. With --observer-every-law
+    and force, counts most; then those in time and the stiffness on impact; then settling, energy drawn and the force
+    swing at rest. With --observer-every-law
     the law uses the estimate of the observer, otherwise the encoder. Ctrl-C keeps the best parameters so far.
 
     The parameters found for the reference device, with 0.03 N of sensor noise, are part of the package under names
@@ -155,22 +156,29 @@ def _show(found: list[Tuned]) -> None:
         "parameters",
         "in position",
         "and force",
+        "in time",
+        "on impact",
         "settled",
         "drawn in any window",
         "force swing",
     ]
-    grid = output.table(headings, numbers=(3, 4, 5, 6, 7))
+    grid = output.table(headings, numbers=range(3, 10))
     for one in found:
         for rows in zip(one.default, one.test, strict=True):
             for what, row in zip(("designed", "tuned"), rows, strict=True):
+                of = f" of {row.hands}"
+                in_time = "-" if row.settled_in_time is None else f"{row.settled_in_time}{of}"
                 grid.add_row(
-                    one.law, row.condition, what, f"{row.exact_and_still} of {row.hands}", f"{row.good} of {row.hands}",
-                    seconds(row.median_settled_s), quantity(row.most_drawn_J, "J"), quantity(row.force_swing_N, "N"),
+                    one.law, row.condition, what, f"{row.exact_and_still}{of}", f"{row.good}{of}", in_time,
+                    quantity(row.median_impact_share, "share"), seconds(row.median_settled_s),
+                    quantity(row.most_drawn_J, "J"), quantity(row.force_swing_N, "N"),
                 )  # fmt: skip
     output.show(grid)
     output.say(
-        "Good hands by their position alone, and by position and force. Settled: median of the good. Force swing: "
-        "peak to peak at rest, the largest of the hands good in position."
+        "Good hands by their position alone, and by position and force. In time: of the former, those that settle "
+        "within 1.5 times what they need at an ideal wall, plus 0.2 s. On impact: median share of the wall's stiffness "
+        "where a hand is deepest. Settled: median of the good. Force swing: peak to peak at rest, the largest of the "
+        "hands good in position."
     )
     for one in found:
         changes = ", ".join(f"{n} = {shown_value(v)}" for n, v in one.changes.items())

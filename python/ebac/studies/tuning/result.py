@@ -28,6 +28,11 @@ class TunedRow:
         Hands, and the good ones: exact, and quiet in position and force.
     exact_and_still : int
         Hands that are exact and still, whatever their force does.
+    settled_in_time : int or None
+        Of these, hands that settle within 1.5 times what they need at an ideal wall, plus 0.2 s; None where that is
+        not known.
+    median_impact_share : float or None
+        Median share of the wall's stiffness on impact.
     median_settled_s : float or None
         Median over the good hands of the time from which on position and force have settled [s].
     least_energy_J, most_drawn_J : float or None
@@ -40,6 +45,8 @@ class TunedRow:
     hands: int
     good: int
     exact_and_still: int
+    settled_in_time: int | None
+    median_impact_share: float | None
     median_settled_s: float | None
     least_energy_J: float | None
     most_drawn_J: float | None
@@ -135,6 +142,8 @@ def rows_of(found: Study, law: str) -> tuple[TunedRow, ...]:
                 hands=row.hands,
                 good=int(good.sum()),
                 exact_and_still=int(resting.sum()),
+                settled_in_time=row.settled_in_time,
+                median_impact_share=row.median_impact_share,
                 median_settled_s=float(np.median(settled)) if len(settled) else None,
                 least_energy_J=row.least_energy_J,
                 most_drawn_J=row.most_drawn_J,

@@ -13,7 +13,9 @@ from ebac._util.nlopt_callbacks import Carried
 from ebac.laws import Variant
 from ebac.operators import Operators
 from ebac.scenario import Scenario
-from ebac.studies.conditions import Condition
+from ebac.studies.condition import Condition
+from ebac.studies.ideal import ideal_contacts, settled_in_time
+from ebac.studies.sweeps.result import SweepResult
 from ebac.studies.sweeps.run import seed_of, sweep
 from ebac.studies.tuning.cost import cost_of
 from ebac.studies.tuning.ranges import Ranges
@@ -41,6 +43,7 @@ class Search:
             s.replace(seed=seed_of(seed, i)) for _, p in parts for i, s in enumerate(p)
         ]
         self.known = [c.believed(s) for c, part in parts for s in part]
+        self.ideal_settled_s = ideal_contacts(self.scenarios, threads)["settled_s"]
         self.tried: list[tuple[dict[str, float | bool], float]] = []
         self.report: Any = None
 
@@ -61,7 +64,8 @@ class Search:
         """Simulate the training hands with some parameters changed; keep the point."""
         law = Variant(self.law, changes)
         runs = sweep(self.scenarios, law, designed_for=self.known, threads=self.threads)
-        cost = cost_of(runs)
+        in_time = settled_in_time(runs, self.ideal_settled_s)
+        cost = cost_of(SweepResult({**runs.columns, "settled_in_time": in_time}))
         self.tried.append((changes, cost))
         self.report(len(self.tried))
         return cost
