@@ -474,8 +474,8 @@ def test_a_fault_is_told_and_its_log_kept(monkeypatch: pytest.MonkeyPatch, tmp_p
             "did you mean --device-coulomb or --device-friction-compensation; see",
         ),
         ("ablation --law mine.py:Mine", "this command takes the laws of the package only"),
-        ("laws mine.py:Damped", "is taken by --law of `ebac wall`, `ebac study`"),
-        ("laws mine.py:Damped", "this command takes the laws of the package only"),
+        ("laws mine.py:Damped", "NAME mine.py:Damped: there is no file mine.py"),
+        ("laws tca,eba", "NAME tca,eba: one law only; give one of tca, eba"),
         (
             "map --change guard=off",
             "--change: there is no such option here; `ebac ablation`, `ebac stiffest`, `ebac study`, `ebac wall`, "

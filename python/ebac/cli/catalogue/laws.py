@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import dataclasses
+import inspect
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -17,7 +19,7 @@ def laws(
     name: Annotated[
         str | None,
         typer.Argument(
-            help="Name of a law to show in detail.",
+            help="A law to show in detail: its name, or FILE.py:NAME or MODULE:NAME for one of your own.",
             show_default=False,
             autocompletion=completion.laws,
         ),
@@ -44,6 +46,8 @@ def laws(
     * `ebac laws`: every law
 
     * `ebac laws ebac --delay 2`: the parameters of EBAC, designed for 2 samples of delay
+
+    * `ebac laws my_law.py:Damped`: those of a law of your own
 
     * `ebac presets reference > device.toml`, then `ebac laws ebac --scenario device.toml`: those for your device
     """
@@ -82,11 +86,20 @@ def _designed_for(
 def _rows(name: str | None, device: Device, timing: Timing) -> list[dict[str, Any]]:
     from ebac.laws import LAWS, design
 
-    names = [by_name.one_law(name, "NAME")] if name is not None else list(LAWS)
-    return [_row(design(law, device, timing)) for law in names]
+    if name is None:
+        return [_row(design(law, device, timing)) for law in LAWS]
+    found = by_name.laws([name], "NAME")
+    if len(found) != 1:
+        raise ValueError(f"NAME {name}: one law only; give one of {', '.join(found)}")
+    ((called, law),) = found.items()
+    return [_row(design(law, device, timing)) | {"law": called}]
 
 
 def _row(law: Any) -> dict[str, Any]:
+    from ebac.laws.protocols import is_core_law
+
+    if not is_core_law(law):
+        return _own_row(law)
     return {
         "law": law.name,
         "what": law.summary,
@@ -103,6 +116,31 @@ def _row(law: Any) -> dict[str, Any]:
                 "designed": getattr(law, field.name),
             }
             for field in law.fields()
+        ],
+    }
+
+
+def _own_row(law: Any) -> dict[str, Any]:
+    """Return what there is to say of a law in Python: the fields of a dataclass, without units and ranges."""
+    from ebac.laws import law_name
+
+    fields = dataclasses.fields(law) if dataclasses.is_dataclass(law) else ()
+    return {
+        "law": law_name(law),
+        "what": (inspect.getdoc(type(law)) or "no docstring").partition("\n")[0].rstrip("."),
+        "passive": False,
+        "parameters": [
+            {
+                "name": field.name,
+                "unit": None,
+                "meaning": "",
+                "type": getattr(field.type, "__name__", str(field.type)),
+                "default": None if field.default is dataclasses.MISSING else field.default,
+                "low": None,
+                "high": None,
+                "designed": getattr(law, field.name),
+            }
+            for field in fields
         ],
     }
 
@@ -134,14 +172,19 @@ def _show_one(row: dict[str, Any]) -> None:
     grid = output.table(headings, numbers=(1, 2, 3))
     for parameter in row["parameters"]:
         designed, default = (_text(parameter[name]) for name in ("designed", "default"))
-        allowed = "" if parameter["type"] == "bool" else _range(parameter["low"], parameter["high"])
-        unit = "" if parameter["unit"] == "1" else parameter["unit"]
+        bounded = parameter["low"] is not None and parameter["type"] != "bool"
+        allowed = _range(parameter["low"], parameter["high"]) if bounded else ""
+        unit = "" if parameter["unit"] in ("1", None) else parameter["unit"]
         grid.add_row(parameter["name"], designed, default, allowed, unit, parameter["meaning"])
     output.show(grid)
 
 
-def _text(value: bool | float) -> str:
-    return ("on" if value else "off") if isinstance(value, bool) else f"{value:.4g}"
+def _text(value: object) -> str:
+    if isinstance(value, bool):
+        return "on" if value else "off"
+    return (
+        f"{value:.4g}" if isinstance(value, (int, float)) else "" if value is None else str(value)
+    )
 
 
 def _range(low: float, high: float) -> str:
