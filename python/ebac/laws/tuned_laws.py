@@ -21,7 +21,7 @@ def tuned_laws() -> tuple[str, ...]:
 def tuned(name: str, delay: int) -> tuple[str, dict[str, Any]]:
     """Return the law behind a name of `tuned_laws`, and its parameters for the nearest delay [samples].
 
-    They were searched for the reference device at 1 kHz with `ebac tune all --device-noise 0.03 --evaluations 240
+    They were searched for the reference device at 1 kHz with `ebac tune all --device-noise 0.03 --evaluations 480
     --json`, and with `--observer-every-law`; other devices need a search of their own.
     """
     law, end, more = name.partition("-tuned")

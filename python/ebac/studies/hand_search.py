@@ -13,14 +13,11 @@ from ebac._util.nlopt_callbacks import Carried
 from ebac.laws import CoreLaw, PythonLaw
 from ebac.scenario import Scenario
 from ebac.simulation import LoopFault, simulate
+from ebac.studies.breeding import AT_RANDOM, BRED, breed
 from ebac.studies.families import Family
 from ebac.studies.sweeps.measure import Columns, Watch, measure
 from ebac.trace import Trace
 
-#: Shares of the runs: at random, and bred from the best; the rest is for NLopt.
-AT_RANDOM, BRED = 0.25, 0.6
-#: Hands of a generation, the parents that are kept, and the first and least spread of a parameter's change.
-CHILDREN, PARENTS, SPREAD, LEAST_SPREAD = 40, 10, 0.15, 0.01
 #: Weight of the energy drawn in any window beside that below zero: it guides where nothing is below zero.
 GUIDE = 1e-3
 #: Runs measured at once.
@@ -94,31 +91,10 @@ class HandSearch:
         points = self.family.at_random(at_random, random)
         parts = [points[start : start + BATCH] for start in range(0, at_random, BATCH)]
         values = np.concatenate([self.measure(part) for part in parts])
-        self._breed(points, values, int((AT_RANDOM + BRED) * evaluations), random)
+        until = int((AT_RANDOM + BRED) * evaluations)
+        breed(points, values, self.measure, until - self.runs, random)
         self._polish(evaluations - self.runs)
         return self._found()
-
-    def _breed(
-        self,
-        points: NDArray[np.float64],
-        values: NDArray[np.float64],
-        until: int,
-        random: np.random.Generator,
-    ) -> None:
-        """Breed from the best: a child has some parameters of a parent changed, or a step between two others added."""
-        spread = SPREAD
-        n = points.shape[1]
-        while self.runs < until:
-            best = np.argsort(-values, kind="stable")[:PARENTS]
-            points, values = points[best], values[best]
-            k = min(CHILDREN, until - self.runs)
-            parents, one, other = (points[random.integers(0, len(points), k)] for _ in range(3))
-            changes = spread * random.normal(size=(k, n)) * (random.random((k, n)) < 0.5)
-            steps = 0.5 * (one - other) * (random.random((k, 1)) < 0.5)
-            children = np.clip(parents + changes + steps, 0, 1)
-            points = np.vstack([points, children])
-            values = np.concatenate([values, self.measure(children)])
-            spread = max(LEAST_SPREAD, 0.96 * spread)
 
     def measure(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
         """Return what is maximised for points of the cube, shape (runs, parameters)."""

@@ -19,7 +19,7 @@ RANGES: dict[str, dict[str, Range]] = {
     "tca": {"kp": (0, 2), "kd": (0, 0.005)},
     "tca-damped": {"virtual_damping": (5, 200), "kp": (0, 1)},
     "lag-compensator": {
-        "stiffness": (500, 3e5), "virtual_damping": (5, 200), "recovery_time": (0.01, 3)
+        "stiffness": (500, 3e5), "virtual_damping": (0.5, 200), "recovery_time": (0.01, 3)
     },
     "passivity-control": {"cap": (0.1, 60), "reference": (0, 1), "per_contact": (0, 1)},
     "iss": {"gain": (1e-7, 1e-2), "most_damping": (1, 200)},

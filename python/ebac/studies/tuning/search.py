@@ -1,4 +1,4 @@
-"""The search for a law's parameters: over the whole range, then around the best."""
+"""The search for a law's parameters: at random, bred from the best, polished by NLopt."""
 
 from __future__ import annotations
 
@@ -13,6 +13,7 @@ from ebac._util.nlopt_callbacks import Carried
 from ebac.laws import Variant
 from ebac.operators import Operators
 from ebac.scenario import Scenario
+from ebac.studies.breeding import AT_RANDOM, BRED, breed
 from ebac.studies.condition import Condition
 from ebac.studies.ideal import ideal_contacts, settled_in_time
 from ebac.studies.sweeps.result import SweepResult
@@ -20,8 +21,8 @@ from ebac.studies.sweeps.run import seed_of, sweep
 from ebac.studies.tuning.cost import cost_of
 from ebac.studies.tuning.ranges import Ranges
 
-#: Share of the runs that look over the whole range (DIRECT-L); the others refine the best point (Subplex).
-LOOKS = 0.6
+#: Points of a generation, the best that are kept for it, and how the spread narrows.
+CHILDREN, PARENTS, NARROWS = 16, 6, 0.9
 
 
 class Search:
@@ -44,21 +45,26 @@ class Search:
         ]
         self.known = [c.believed(s) for c, part in parts for s in part]
         self.ideal_settled_s = ideal_contacts(self.scenarios, threads)["settled_s"]
+        self.seed = seed
         self.tried: list[tuple[dict[str, float | bool], float]] = []
         self.report: Any = None
 
     def run(self, evaluations: int) -> None:
-        """Try the default, look over the whole range, then refine the best."""
-        import nlopt
-
+        """Try the default, points at random, those bred from the best, and those around the best."""
+        random = np.random.Generator(np.random.PCG64([self.seed, len(self.ranges)]))
         self.measure({})
-        looks = max(1, round(LOOKS * (evaluations - 1)))
-        middle = np.full(len(self.ranges), 0.5)
-        self._search(nlopt.GN_DIRECT_L, looks, middle)
-        left = evaluations - len(self.tried)
-        if left > 0:
-            best = min(self.tried[1:], key=lambda tried: tried[1])[0]
-            self._search(nlopt.LN_SBPLX, left, self.ranges.place_of(best))
+        points = random.random((max(1, int(AT_RANDOM * evaluations)), len(self.ranges)))
+        values = self._gains(points[: evaluations - 1])
+        until = int((AT_RANDOM + BRED) * evaluations)
+        breed(
+            points, values, self._gains, until - len(self.tried), random,
+            children=CHILDREN, parents=PARENTS, narrows=NARROWS,
+        )  # fmt: skip
+        self._polish(evaluations - len(self.tried))
+
+    def _gains(self, points: Values) -> Values:
+        """Return minus the costs of points of the unit cube, shape (m, parameters)."""
+        return np.array([-self.measure(self.ranges.at(point)) for point in points])
 
     def measure(self, changes: dict[str, float | bool]) -> float:
         """Simulate the training hands with some parameters changed; keep the point."""
@@ -70,12 +76,14 @@ class Search:
         self.report(len(self.tried))
         return cost
 
-    def _search(self, algorithm: int, evaluations: int, start: Values) -> None:
+    def _polish(self, runs: int) -> None:
         import nlopt
 
-        optimiser = nlopt.opt(algorithm, len(self.ranges))
+        if runs <= 0:
+            return
+        optimiser = nlopt.opt(nlopt.LN_SBPLX, len(self.ranges))
         carried = Carried(optimiser)
-        most = len(self.tried) + evaluations  # NLopt's own limit is not sharp
+        most = len(self.tried) + runs  # NLopt's own limit is not sharp
 
         def cost(point: Values) -> float:
             if len(self.tried) >= most:
@@ -86,9 +94,9 @@ class Search:
         optimiser.set_min_objective(carried(cost, instead=math.inf))
         optimiser.set_lower_bounds(np.zeros(len(self.ranges)))
         optimiser.set_upper_bounds(np.ones(len(self.ranges)))
-        optimiser.set_maxeval(evaluations)
+        optimiser.set_maxeval(runs)
         optimiser.set_xtol_abs(2e-3)
-        if algorithm == nlopt.LN_SBPLX:
-            optimiser.set_initial_step(0.1)
-        optimiser.optimize(start)
+        optimiser.set_initial_step(0.1)
+        best = min(self.tried[1:], key=lambda tried: tried[1])[0]
+        optimiser.optimize(self.ranges.place_of(best))
         carried.settle()
