@@ -204,7 +204,7 @@ class AxisObserver {
 
   /// What friction leaves of `pull` [N] at a velocity, over a time.
   double slowed(double pull, double v, double time) const EBAC_RT {
-    if (params_.friction == 0 || time == 0) return pull;
+    if (!(params_.friction > 0 && time > 0)) return pull;
     const double stopping = pull + mass_ * v / time;
     return pull - std::clamp(stopping, -params_.friction, params_.friction);
   }
