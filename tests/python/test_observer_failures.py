@@ -293,6 +293,16 @@ def test_a_hand_that_shakes_within_a_count_is_not_taken_for_a_held_device() -> N
     assert trace["true.energy"].min() > -1e-3
 
 
+def test_a_hand_that_sways_keeps_its_wall_on_a_device_with_much_friction() -> None:
+    """The wait above let the model slide on at each reversal, and after 25 s the account was empty: 1 mm too deep."""
+    device = BASE.device.replace(mechanics=ebac.Mechanics(coulomb=1.0))
+    light_and_stiff = ebac.Operators.grid()[4:30:5]
+    study = ebac.study(
+        light_and_stiff, "ebac", ["slow-waves-K20"], base=BASE.replace(device=device)
+    )
+    assert study.columns["exact_and_still"].all()
+
+
 @pytest.mark.parametrize("lag", [0.0, 2e-4])
 def test_a_sensor_without_a_filter_keeps_the_wall(lag: float) -> None:
     """The readings show what a heavy hand gives back of the motor's step when it is over: it swung and fell back."""

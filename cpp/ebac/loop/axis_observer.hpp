@@ -63,6 +63,7 @@ class AxisObserver {
       : params_(params),
         mass_(params.mass* mass_share),
         per_mass_(1 / mass_),
+        leaning_(kLeans* std::max(0.0, 1 - params.friction / kSticks)),
         motor_(params.current_lag),
         strength_(params.count),
         noise_(params.force_noise),
@@ -186,6 +187,7 @@ class AxisObserver {
       0.09;                                // 1, (w dt)^2 from which noise moves x over whole counts
   static constexpr double kStands = 0.01;  // s, so long stands the reading of a held device
   static constexpr double kLeans = 1.5e-3;  // s, so long the model would leave it on one side
+  static constexpr double kSticks = 0.5;    // N, friction with which it need not
   static constexpr double kHolds = 2e-3;    // s, in which D takes what would move it
   static constexpr double kMoving = 0.01;   // m/s, from here on the device moves
   static constexpr double kSlow = 2.5e-3;   // m/s, from here on a quiet sensor counts as any other
@@ -244,7 +246,8 @@ class AxisObserver {
   }
 
   /// Keeps x by the reading. A device whose reading stands while the model would `pull` it on [N] is held, as by more
-  /// friction than is known: the model stops, and D takes the pull. A hand that shakes within a count turns sooner.
+  /// friction than is known: the model stops, and D takes the pull. A hand that shakes within a count turns sooner
+  /// than the model leans out of the reading; the more friction there is, the likelier a device is held.
   void keep_place(double reading, double pull) EBAC_RT {
     const double room = kCell * params_.count;
     const double beyond = x_ - std::clamp(x_, reading - room, reading + room);
@@ -252,7 +255,7 @@ class AxisObserver {
     stands_ = std::abs(reading - reading_) < 0.5 * params_.count ? stands_ + unread_ : 0;
     if (beyond * leans_ <= 0) leans_ = 0;
     if (beyond != 0) leans_ += std::copysign(unread_, beyond);
-    if (stands_ < kStands || beyond * u_ <= 0 || std::abs(leans_) < kLeans) return;
+    if (stands_ < kStands || beyond * u_ <= 0 || std::abs(leans_) < leaning_) return;
     if (pull * u_ > 0) disturbance_ -= holding_ * pull;
     u_ = 0;
   }
@@ -284,6 +287,7 @@ class AxisObserver {
   double mass_;         // kg
   double per_mass_;     // 1/kg
   double damping_ = 0;  // N s/m
+  double leaning_;      // s
   MotorForce motor_;
   MotorEcho echo_;
   MotorStrength strength_;
