@@ -349,3 +349,45 @@ def test_a_law_that_needs_arguments_is_told_how_a_contract_makes_it() -> None:
     with pytest.raises(TypeError) as refused:
         Subject.of(After, LawContract)
     assert "write law = lambda: After(...)" in refused.value.__notes__[0]
+
+
+class _Held:
+    """A law in Python, of which few tests can be asked."""
+
+    name = "held"
+
+    def step(self, port: Any) -> float:
+        return float(port.f_env)
+
+    def reset(self) -> None:
+        pass
+
+
+def test_a_contract_that_inherits_asks_all_that_its_own_law_can_be_asked() -> None:
+    """What the law of the first could not be asked was left out for that of the second, too."""
+
+    class OfPython(LawContract):
+        __test__ = False
+        law = _Held
+
+    class OfCore(OfPython):
+        law = "eba-account"
+
+    class Alone(LawContract):
+        __test__ = False
+        law = "eba-account"
+
+    def tests(contract: type) -> set[str]:
+        return {n for n in dir(contract) if n.startswith("test_") and getattr(contract, n)}
+
+    assert tests(OfCore) == tests(Alone) > tests(OfPython)
+
+
+def test_a_finished_law_is_tested_on_the_device_that_it_was_made_for() -> None:
+    class Finished(LawContract):
+        __test__ = False
+        law = ebac.design("eba-account", ebac.Device(), ebac.Timing())
+
+    (subject,) = Finished.subjects()
+    assert not subject.designed
+    assert Subject.of("eba-account", Finished).designed

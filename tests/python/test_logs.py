@@ -720,3 +720,19 @@ def test_rows_refuse_what_does_not_fit() -> None:
         rows.copy(1, 3)
     with pytest.raises(ValueError, match="must be at least 1"):
         SOURCE.empty_like(0)
+
+
+def test_a_part_after_a_change_was_changed(tmp_path: Path) -> None:
+    """It was judged as if law and world were those of the start, and exported so."""
+    trace = ebac.simulate(ebac.Scenario(seconds=0.3), "direct")
+    moved = ebac.logs.Event(
+        kind="parameter", message="environment: stiffness 10000 -> 20000", tick=100, t=0.1
+    )
+    path = written(tmp_path / "run.mcap", trace, chunk=100, events=[moved])
+    for start, changed in ((None, True), (0.2, True)):
+        part = ebac.load(path, start=start)
+        assert part.changed is changed
+        assert ebac.contact(part).exact is None
+        with pytest.warns(UserWarning, match="were changed while this log was recorded"):
+            ebac.replay(part, "direct")
+    assert not ebac.load(path, stop=0.1).changed

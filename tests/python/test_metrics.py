@@ -622,3 +622,31 @@ def test_the_force_above_20_hz_is_a_part_of_its_ripple(noise: float, stiffness: 
     row = ebac.contact(ebac.simulate(scenario, "ebac"))
     assert row.ripple_high_N is not None
     assert 0 < row.ripple_high_N < row.ripple_rms_N
+
+
+def test_a_contact_on_the_second_axis_alone_is_one() -> None:
+    """It was "no contact", with a handle that shook at the peak force."""
+    side = ebac.worlds.Box(width=0.2, depth=0.02, height=0.2)
+    world = ebac.worlds.World(ebac.worlds.Placed(side, at=(0.0, 0.02, 0.0)))
+    scenario = ebac.Scenario(
+        device=ebac.Device(kinematics=ebac.Linear(axes=2)),
+        hand=ebac.Hand(path=[ebac.Step(target=0.0), ebac.Step(target=0.04)]),
+        environment=world,
+        seconds=1.0,
+    )
+    met = ebac.contact(ebac.simulate(scenario, "direct"))
+    assert met.touched
+    assert met.touched_at_rest
+    assert met.verdict == "swings"
+
+
+@pytest.mark.parametrize(
+    "path",
+    [ebac.Step(target=0.03, at=5.0), ebac.MinimumJerk(target=0.03, duration=10.0)],
+)
+def test_a_hand_on_its_way_when_the_run_ends_is_not_judged(path: Any) -> None:
+    """It was "not deep enough"."""
+    scenario = ebac.Scenario(hand=ebac.Hand(path=path), seconds=2.0)
+    assert ebac.ideal_rest(scenario) is None
+    assert ebac.ideal_rest(scenario.replace(seconds=20.0)) is not None
+    assert ebac.contact(ebac.simulate(scenario, "ebac")).exact is None

@@ -392,3 +392,13 @@ def test_one_axis_of_a_column_is_chosen_as_files_name_it() -> None:
     assert len(plot_columns(flat, ["x_0"]).axes[0].lines) == 1
     with pytest.raises(ValueError, match=r"^x_1: x has only axis 0$"):
         plot_columns(flat, ["x_1"])
+
+
+def test_a_long_line_keeps_its_last_rows() -> None:
+    """A spike in the rows that fill no bin was left out: where a fault is."""
+    from ebac.plot.style import MOST_POINTS, _extremes
+
+    for more in range(1, 40):
+        y = np.zeros(4 * MOST_POINTS + more)
+        y[-3] = -40.0
+        assert y[_extremes(y)].min() == -40.0

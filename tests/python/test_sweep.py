@@ -357,7 +357,13 @@ class Mine:
 
 
 @pytest.mark.parametrize(
-    "edit", [{"share": 0.6}, {"body": "-helped(port)"}, {"body": "helped(port) - 2.0"}]
+    "edit",
+    [
+        {"share": 0.6},
+        {"body": "-helped(port)"},
+        {"body": "helped(port) - 2.0"},
+        {"body": "helped(port) * sum([1.0, 0.5, 0.25])"},
+    ],
 )
 def test_a_law_whose_code_was_edited_is_another_law(
     edit: dict[str, Any], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
@@ -367,7 +373,8 @@ def test_a_law_whose_code_was_edited_is_another_law(
     def law(**changes: Any) -> Any:
         module = types.ModuleType("edited")
         monkeypatch.setitem(sys.modules, "edited", module)
-        exec(EDITED.format(**{"share": 0.5, "body": "helped(port)"} | changes), vars(module))
+        given = {"share": 0.5, "body": "helped(port) * sum([0.0, 0.5, 0.25])"} | changes
+        exec(EDITED.format(**given), vars(module))
         return module.Mine()
 
     few = scenarios(2, seconds=0.1)
@@ -434,3 +441,57 @@ def test_limits_travel_and_are_checked() -> None:
     assert pickle.loads(pickle.dumps(limits)) == limits
     with pytest.raises(ValueError, match=r"RunLimits\.position = 0 m"):
         ebac.RunLimits(position=0.0)
+
+
+class Pull:
+    """A hand of one's own, without a text of its own: the default has an address."""
+
+    def __init__(self, goal: float) -> None:
+        self.goal = goal
+
+    def force(self, t: float, x: float, v: float) -> float:
+        return 300 * (self.goal - x)
+
+
+class Slope:
+    """A world of one's own, which may be changed between two sweeps."""
+
+    def __init__(self, stiffness: float) -> None:
+        self.stiffness = stiffness
+
+    def __call__(self, x: Any, v: Any) -> Any:
+        return self.stiffness * np.maximum(x, 0.0)
+
+
+def test_hands_and_worlds_of_ones_own_are_known_by_what_they_do(tmp_path: Path) -> None:
+    """They were known by where they lay in memory: none was known again, and some for others."""
+
+    def made(goal: float, stiffness: float) -> list[ebac.Scenario]:
+        return [
+            ebac.Scenario(hand=ebac.Hand(model=Pull(goal)), seconds=0.1),
+            ebac.Scenario(environment=ebac.worlds.FunctionWorld(Slope(stiffness)), seconds=0.1),
+        ]
+
+    first = sweep(made(0.02, 1e3), "direct", out=tmp_path, threads=1)
+    assert_same_bits(first, sweep(made(0.02, 1e3), "direct", out=tmp_path, threads=1))
+    for other in (made(0.03, 1e3), made(0.02, 2e3)):
+        with pytest.raises(ValueError, match="holds another sweep"):
+            sweep(other, "direct", out=tmp_path, threads=1)
+
+
+def test_whoever_is_told_the_progress_may_end_a_sweep() -> None:
+    """It went on in the background."""
+
+    def told(done: int, total: int) -> None:
+        raise RuntimeError("enough")
+
+    with pytest.raises(RuntimeError, match="enough"):
+        sweep(scenarios(200, seconds=6.0), "ebac", threads=1, progress=told)
+    begin = time.process_time()
+    time.sleep(0.2)
+    assert time.process_time() - begin < 0.1
+
+
+def test_the_observer_is_among_what_was_swept() -> None:
+    given = [ebac.Scenario(seconds=0.1, observer=observer) for observer in (True, "every-law")]
+    assert sweep(given, "tca").swept == ("observer",)

@@ -309,3 +309,19 @@ def test_the_command_writes_what_it_prints_where_it_is_told_to(tmp_path: Path) -
     again = CliRunner().invoke(app, words.split())
     assert again.exit_code == 2
     assert "has files; give a new folder" in again.output
+
+
+def test_an_interrupt_while_a_result_is_judged_keeps_those_before(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    judged = tuning.run._judged
+
+    def interrupted(search: Any, delay: int, *rest: Any) -> Any:
+        if delay == 1:
+            raise KeyboardInterrupt
+        return judged(search, delay, *rest)
+
+    monkeypatch.setattr(tuning.run, "_judged", interrupted)
+    with pytest.raises(TuningInterrupted) as stopped:
+        quick(conditions=("d0K20", "d1K20"), evaluations=3)
+    assert [found.delay for found in stopped.value.result] == [0]

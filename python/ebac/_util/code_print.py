@@ -7,13 +7,16 @@ from contextlib import suppress
 from types import CodeType, FunctionType
 from typing import Any
 
+#: What a class holds beside its code; `copy` adds the slot names when an object is first copied.
+_NO_CODE = ("__module__", "__doc__", "__firstlineno__", "__slotnames__")
 _PLAIN = (bool, int, float, complex, str, bytes, type(None))
 
 
-def code_print(kind: type) -> str:
-    """Return the instructions of a class and of what they name in its module: functions, classes and plain constants.
+def code_print(kind: type | FunctionType) -> str:
+    """Return the instructions of a class or function, and of what they name in its module.
 
-    Of other modules, and of arrays or tables that the code names, nothing is taken.
+    That is functions, classes and plain constants. Of other modules, and of arrays or tables that the code names,
+    nothing is taken.
     """
     return "\n".join(_of(kind, kind.__module__, set()))
 
@@ -39,7 +42,7 @@ def _of_class(kind: type, module: str, seen: set[int]) -> Iterator[str]:
     for base in kind.__bases__:
         yield from _of(base, module, seen)
     for name, value in vars(kind).items():
-        if name not in ("__module__", "__doc__", "__firstlineno__"):
+        if name not in _NO_CODE:
             yield name
             yield from _of(value, module, seen)
 
@@ -48,13 +51,18 @@ def _of_function(function: FunctionType, module: str, seen: set[int]) -> Iterato
     yield from map(repr, (function.__defaults__, function.__kwdefaults__))
     for code in _codes(function.__code__):
         yield code.co_code.hex()
-        yield repr([value for value in code.co_consts if isinstance(value, _PLAIN)])
+        yield repr([_plain(value) for value in code.co_consts if not isinstance(value, CodeType)])
         for name in code.co_names:
             yield name
             yield from _of(function.__globals__.get(name), module, seen)
     for cell in function.__closure__ or ():
         with suppress(ValueError):  # a cell that is empty
             yield from _of(cell.cell_contents, module, seen)
+
+
+def _plain(value: Any) -> Any:
+    """Return a constant whose text is the same in every process: that of a set is not."""
+    return sorted(map(repr, value)) if isinstance(value, frozenset) else value
 
 
 def _codes(code: CodeType) -> Iterator[CodeType]:

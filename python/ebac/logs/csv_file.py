@@ -37,7 +37,7 @@ def read_csv(path: Path) -> Trace:
             line = 1  # of the headings
             while (heading := file.readline()).startswith("#"):
                 line += 1
-            first = file.readline().rstrip("\n")
+            first = next((text for text in file if text.strip()), "").rstrip("\n")
     except UnicodeDecodeError:
         raise ValueError(f"{path}: {_first_wrong(path, [], 0, ',')}") from None
     if not heading.strip():

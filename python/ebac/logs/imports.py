@@ -54,9 +54,17 @@ def from_mat(path: Path) -> Trace:
     data, columns = {}, {}
     for short in units:
         name = names.get(short) or short
-        data[name] = np.atleast_1d(np.asarray(found[short]))
+        data[name] = _column(np.asarray(found[short]), np.size(found["t"]))
         columns[name] = _info(name, units[short], meanings.get(short))
     return _trace(path, data, columns, about)
+
+
+def _column(values: NDArray[Any], rows: int) -> NDArray[Any]:
+    """Return a column of so many rows as it was written: MATLAB has whole numbers for on and off, and no single row."""
+    column = np.atleast_1d(values)
+    if column.dtype == np.uint8:  # no log has such a column
+        column = column.astype(bool)
+    return column.reshape(1, -1) if rows == 1 and column.size > 1 else column
 
 
 def from_hdf5(path: Path) -> Trace:

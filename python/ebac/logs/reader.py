@@ -52,6 +52,7 @@ class _Found:
     )
     events_channel: int | None = None
     events: list[Event] = field(default_factory=list)
+    changed: bool = False  # law or world, before the part that is read or in it
     metadata: dict[str, dict[str, str]] = field(default_factory=dict)
     files: dict[str, str] = field(default_factory=dict)
 
@@ -103,7 +104,12 @@ def _of_trace(path: Path, start: float | None, stop: float | None) -> Log:
 
     trace = load(path, start=start, stop=stop)
     about = About(
-        axes=trace.axes, law=trace.law, law_repr=trace.law_repr, scenario=trace.scenario, made_by={}
+        axes=trace.axes,
+        law=trace.law,
+        law_repr=trace.law_repr,
+        scenario=trace.scenario,
+        made_by={},
+        changed=trace.changed,
     )
     return Log(
         path=path,
@@ -230,6 +236,7 @@ def _take_content(found: _Found, condition: Condition, content: Content, size: i
         condition.leave_out(_NAMES[CHUNK], start, error)
     for run in content.runs:
         found.columns.take(run, content.end / size)
+    found.changed |= any(e.kind == "parameter" and e.t < found.stop for e in content.events)
     found.events += [e for e in content.events if found.start <= e.t < found.stop]
 
 
@@ -252,7 +259,7 @@ def _log(path: Path, found: _Found, condition: Condition, size: int) -> Log:
         law=about.law,
         law_repr=about.law_repr,
         origin=about.origin,
-        changed=about.changed or any(event.kind == "parameter" for event in found.events),
+        changed=about.changed or found.changed,
     )
     return Log(
         path=path,

@@ -131,6 +131,7 @@ class Recorder:
         self._waiting: list[Event] = []
         self._lock = threading.Lock()
         self._ends = threading.Event()
+        self._closed = False
         self.written = 0
         self.lost = 0
         self.error: Exception | None = None
@@ -202,13 +203,14 @@ class Recorder:
         OSError
             When the file could not be written to its end; what was written before can be read.
         """
-        if self._ends.is_set():
+        if self._closed:
             return
         self._ends.set()
-        atexit.unregister(self._at_exit)
         for thread in self._threads:
             thread.join()
         self._take_all()
+        self._closed = True  # from here on: an interrupt before lets the next call do all of it
+        atexit.unregister(self._at_exit)
         if self.error is None:
             try:
                 self._writer.close(rows=self.written, lost=self.lost)

@@ -126,20 +126,29 @@ def _trace_of(log: Trace | Log | str | Path) -> Trace:
         _warn_of_changes(log)
         return log.trace
     require(log, (Trace, str, Path), "ebac.replay", "a Trace, a Log or the path of one")
-    return log if isinstance(log, Trace) else load(log)
+    trace = log if isinstance(log, Trace) else load(log)
+    if trace.changed:
+        _warn("")
+    return trace
 
 
 def _warn_of_changes(log: Log) -> None:
-    """Warn where law or world were changed while the log was recorded."""
+    """Warn where law or world were changed while the log was recorded, or before the part of it."""
     made = [e for e in log.events if e.kind == "parameter" and e.message.startswith(_CHANGES)]
     if made:
         shown = f"{made[0].message} at {made[0].t:g} s"
         more = f" and {len(made) - 1} more" if len(made) > 1 else ""
-        warnings.warn(
-            f"replay: law or world were changed while this log was recorded ({shown}{more}); the replay keeps those of "
-            "the start, so from there on it is no longer what ran",
-            stacklevel=4,
-        )
+        _warn(f" ({shown}{more})")
+    elif log.trace.changed:
+        _warn("")
+
+
+def _warn(when: str) -> None:
+    warnings.warn(
+        f"replay: law or world were changed while this log was recorded{when}; the replay keeps those of the start, so "
+        "from there on it is no longer what ran",
+        stacklevel=5,
+    )
 
 
 def _ran(recorded: Trace) -> Trace:

@@ -67,7 +67,9 @@ def comes_to_rest(path: object, seconds: float) -> bool:
     """Return whether a target stands still before a run of so many seconds ends."""
     if isinstance(path, Recorded):
         return bool(path.t[-1] < seconds)
-    return isinstance(path, (Step, MinimumJerk))
+    if isinstance(path, MinimumJerk):
+        return path.at + path.duration < seconds
+    return isinstance(path, Step) and path.at < seconds
 
 
 def left_weight(device: Device) -> float:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from math import isnan
 from typing import Any
 
@@ -145,7 +146,7 @@ def contact(trace: Trace, *, axis: int | None = None, truth: bool = True) -> Con
         and all(moves_with_hand(trace, i) for i in judged),
         at_hands_pace=at_hands_pace(trace, known["limit_cycle"], judged, target=simulated),
         saturated_share=_saturated(trace, axis),
-        **_touched(trace, axis, known["limit_cycle"]),
+        **_touched(trace, judged, known["limit_cycle"]),
         **{column: known[name] for column, name in COLUMNS.items()},
         **{name: known[name] for name in FLAGS},
     )
@@ -191,11 +192,12 @@ def _saturated(trace: Trace, axis: int) -> float | None:
     return float(np.mean(np.abs(trace.axis("f_cmd", axis)) > scenario.device.peak_force))
 
 
-def _touched(trace: Trace, axis: int, frequency: float | None) -> dict[str, bool]:
-    """Return whether the virtual world ever acted, and whether it still did at the end."""
+def _touched(trace: Trace, judged: Sequence[int], frequency: float | None) -> dict[str, bool]:
+    """Return whether the virtual world ever acted on one of these axes, and whether it still did at the end."""
     if "f_env" not in trace:
         return {}
-    acted, t = trace.axis("f_env", axis) != 0, trace["t"]
+    acted = np.any([trace.axis("f_env", i) != 0 for i in judged], axis=0)
+    t = trace["t"]
     apart = max(LEFT_AFTER, SWINGS / frequency) if frequency else LEFT_AFTER
     end = min(apart, TAIL_SHARE * float(t[-1] - t[0]))
     return {

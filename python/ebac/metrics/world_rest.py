@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ebac._core import Device, Gimbal, Layer, Linear, MinimumJerk, Step
-from ebac.metrics.lever_rest import FLATTEST, left_weight
+from ebac.metrics.lever_rest import FLATTEST, comes_to_rest, left_weight
 from ebac.scenario import Scenario
 from ebac.worlds import Body, Layered, World
 
@@ -47,7 +47,10 @@ def world_rest(scenario: Scenario, start: NDArray[np.float64] | None = None) -> 
     if hand.model is not None or np.isfinite(hand.release_at) or hand.stiffness == 0:
         return None
     paths = hand.path[: device.axes]
-    if not all(isinstance(path, (Step, MinimumJerk)) for path in paths):
+    if not all(
+        isinstance(path, (Step, MinimumJerk)) and comes_to_rest(path, scenario.seconds)
+        for path in paths
+    ):
         return None
     goal = np.zeros(device.axes)
     goal[: len(paths)] = [path.target for path in paths]  # type: ignore[union-attr]

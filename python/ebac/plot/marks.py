@@ -17,7 +17,7 @@ from ebac.trace import Trace
 #: The state of the loop in which it ramps the force to zero.
 _STOP = 3
 #: What a scenario in words says of its observer.
-_OBSERVER = ", state observer for (every law|laws made for it)"
+_OBSERVER = ", state observer(?: that learns the scale)? for (every law|laws made for it)"
 FAULT_COLOUR, RAMP_COLOUR = "#aa0044", "0.88"
 
 
@@ -75,9 +75,11 @@ def for_laws(described: str, traces: Sequence[Trace]) -> str:
 
 def for_law(described: str, law: str) -> str:
     """Return a scenario in words for a law by its name: nothing of a state observer that it does not use."""
-    if law not in LAWS and ", state observer for every law" not in described:
+    found = re.search(_OBSERVER, described)
+    every = found is not None and found[1] == "every law"
+    if law not in LAWS and not every:
         return described  # a law of a user's: who knows
-    uses = hasattr(LAWS.get(law), "observer") or ", state observer for every law" in described
+    uses = hasattr(LAWS.get(law), "observer") or every
     return re.sub(_OBSERVER, ", state observer" if uses else "", described)
 
 

@@ -78,7 +78,7 @@ def plot_trace(trace: Trace, *, events: Sequence[Event] = ()) -> Picture:
         raise ValueError(f"the trace has {len(trace)} rows: a figure needs at least 2")
     if not all(name in trace for name in LOOP):
         others = [name for name in trace if name not in ("t", "tick")]
-        moving = [name for name in others if np.ptp(trace[name]) != 0]
+        moving = [name for name in others if (trace[name] != trace[name][:1]).any()]
         return plot_columns(trace, moving or others)
     used = used_axes(trace)
     panels: list[Panel] = [_position, _force, _energy]

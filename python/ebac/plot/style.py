@@ -201,7 +201,8 @@ def _extremes(y: Values) -> NDArray[np.intp] | slice:
     size = 2 * len(y) // MOST_POINTS + 1
     bins = y[: len(y) // size * size].reshape(-1, size)
     start = np.arange(len(bins)) * size
-    chosen = np.concatenate((start + bins.argmin(1), start + bins.argmax(1), [len(y) - 1]))
+    rest = np.arange(len(bins) * size, len(y))  # rows of no bin: less than one
+    chosen = np.concatenate((start + bins.argmin(1), start + bins.argmax(1), rest, [len(y) - 1]))
     return np.unique(chosen)
 
 

@@ -123,7 +123,7 @@ def _bottom(column: NDArray[Any]) -> None:
 def _values(rows: list[StudyRow]) -> tuple[list[float], list[float], list[float]]:
     shaking = [1e3 * row.shaking_m if np.isfinite(row.shaking_m) else np.nan for row in rows]
     return (
-        [max(LEAST, one) for one in shaking],
+        [float(np.maximum(LEAST, one)) for one in shaking],  # NaN, a gap, where the run did not end
         [1e3 * row.least_network_J for row in rows],
         [row.transparency for row in rows],
     )

@@ -25,6 +25,7 @@ from ebac.studies.random_scenario import DEVICES, random_scenario
 from ebac.studies.random_worlds_result import HELD_BACK, HandRun, RandomWorldRow, RandomWorlds
 from ebac.studies.sweeps.run import Laws, name_laws
 from ebac.studies.world_kinds import KINDS
+from ebac.trace import Trace
 
 #: Stiffnesses of the surfaces [N/m] and delays [samples] unless others are given.
 STIFFNESSES, DELAYS = (10e3,), (1,)
@@ -160,13 +161,13 @@ def _measured(
     make: Callable[[int], Scenario], law: CoreLaw | PythonLaw, given: AnyLaw, index: int
 ) -> HandRun:
     trace = every_row(on_its_observer(make(index), given), law)
-    held = float(trace["law.starved"].max()) if _guarded(law) else None
+    held = float(trace["law.starved"].max()) if _guarded(law, trace) else None
     touched = bool(trace["f_env"].any())
     return HandRun(held, drawn(trace), bool(trace["fault"].any()), touched)
 
 
-def _guarded(law: CoreLaw | PythonLaw) -> bool:
-    return bool(getattr(law, "guard", False))
+def _guarded(law: CoreLaw | PythonLaw, trace: Trace) -> bool:
+    return bool(getattr(law, "guard", False)) and "law.starved" in trace
 
 
 def _row(cell: _Cell, name: str, reserve: float | None, runs: list[HandRun]) -> RandomWorldRow:

@@ -89,12 +89,17 @@ class StudyRow:
 
 @dataclass(frozen=True, kw_only=True)
 class Failure:
-    """A run that was not good: its place in the columns, its operator's row from 1 (0 for a drive), and why."""
+    """A run that was not good: its place in the columns, and why.
+
+    `operator` is the row of its hand, from 1, and 0 for a drive; `drive` which of its condition it is, from 1, and 0
+    for a hand.
+    """
 
     run: int
     law: str
     condition: str
     operator: int
+    drive: int
     name: str
     why: str
 
@@ -177,12 +182,15 @@ class Study:
             (np.isfinite(c["ideal_m"]) & ~c["good"]) | _ended_early(c)
         ).tolist():
             operator = int(c["operator"][i])
+            law, condition = str(c["law"][i]), str(c["condition"][i])
+            drive = 0 if operator else 1 + i - int(self.runs(law, condition)[0])
             yield Failure(
                 run=i,
-                law=str(c["law"][i]),
-                condition=str(c["condition"][i]),
+                law=law,
+                condition=condition,
                 operator=operator,
-                name=self.operators.name(operator - 1) if operator else "drive",
+                drive=drive,
+                name=self.operators.name(operator - 1) if operator else f"drive {drive}",
                 why=_why({name: values[i] for name, values in c.items()}),
             )
 

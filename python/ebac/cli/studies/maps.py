@@ -126,7 +126,7 @@ def _run(
 ) -> StabilityMap:
     from ebac.studies.maps import stability_map
 
-    kept = None if folder is None else folder / BUNDLES.format(name)
+    kept = None if folder is None else folder / BUNDLES.format(file_name(name))
     with (
         interrupts.resumable(folder),
         output.refusing(folder),

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from ebac._util.file_names import file_name
 from ebac.cli import by_name, completion, interrupts, options, output
 from ebac.cli.files import ResultOptions
 
@@ -167,7 +168,7 @@ def _fill(draft: Path, found: RandomWorlds, to: ResultOptions) -> None:
 
 
 def _file(row: RandomWorldRow) -> str:
-    return f"worst-{row.law}-{row.kind}"
+    return f"worst-{file_name(row.law)}-{row.kind}"
 
 
 def _show(found: RandomWorlds) -> None:

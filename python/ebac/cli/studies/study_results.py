@@ -40,7 +40,8 @@ def fill(draft: Path, study: Study, traces: int | None, to: ResultOptions, *, qu
             to.save(figure, draft, f"study-{name}")
         for failure in kept:
             step("keeping traces of failures")
-            name = f"failure-{file_name(failure.law)}-{failure.condition}-{failure.operator}.npz"
+            which = failure.operator or f"drive{failure.drive}"
+            name = f"failure-{file_name(failure.law)}-{failure.condition}-{which}.npz"
             study.trace(failure.run).to_npz(draft / name)
 
 

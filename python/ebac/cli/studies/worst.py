@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from ebac._util.file_names import file_name
 from ebac.cli import by_name, changed_laws, from_options, interrupts, options, output
 from ebac.cli.files import ResultOptions
 from ebac.cli.studies import replaced, worst_tables
@@ -182,7 +183,7 @@ def _fill(draft: Path, found: Sequence[Worst], to: ResultOptions) -> None:
 
 
 def _file(one: Worst, hand: WorstHand, found: Sequence[Worst]) -> str:
-    return f"worst-{hand.family.name if len(found) == 1 else one.law}"
+    return f"worst-{hand.family.name if len(found) == 1 else file_name(one.law)}"
 
 
 def _tell_replay(

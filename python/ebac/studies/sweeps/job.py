@@ -66,9 +66,11 @@ class Job:
             try:
                 while not work.wait(LOOK):
                     self.progress(self.done + watch.done, len(self.runs))
-            except KeyboardInterrupt:
+            except BaseException as error:  # Ctrl-C, or of whoever is told the progress
                 watch.core.cancel()
-                self.keep(part, work.result())
+                columns = work.result()
+                if isinstance(error, KeyboardInterrupt):
+                    self.keep(part, columns)
                 raise
             yield i, work.result()
 

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from ebac.studies.sweeps.measure import Columns
 
 #: How the columns of swept parameters begin.
-_SWEPT = ("device", "hand", "environment", "timing", "jitter", "seconds_s")
+_SWEPT = ("device", "hand", "environment", "timing", "jitter", "seconds_s", "observer")
 #: What a row shows of a run.
 _CONTACT = ("rest_m", "ideal_m", "swing_m", "settled_s", "least_energy_J")
 

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import hashlib
 import json
+import re
 from collections.abc import Sequence
 from contextlib import ExitStack
 from pathlib import Path
+from types import FunctionType, MethodType
 from typing import Any, Self
 
 import numpy as np
@@ -14,9 +16,13 @@ import numpy as np
 from ebac._core import RunLimits
 from ebac._util.atomic_folder import NO_LOCKS, locked
 from ebac._util.code_print import code_print
+from ebac._util.foreign_worlds import foreign
+from ebac.scenario import Scenario
 from ebac.studies.sweeps.measure import Columns, Run, empty
 
 MANIFEST = "sweep.json"
+#: Where an object lies in memory, in a text that has nothing better.
+_ADDRESS = re.compile(r" at 0x[0-9a-fA-F]+")
 
 
 def fingerprint(runs: Sequence[Run], limits: RunLimits) -> str:
@@ -30,17 +36,32 @@ def fingerprint(runs: Sequence[Run], limits: RunLimits) -> str:
         if id(law) not in laws:
             laws[id(law)] = _describe(law)
         if id(scenario) not in scenarios:
-            scenarios[id(scenario)] = f"{scenario!r} {_code(scenario.hand.model)}"
+            scenarios[id(scenario)] = _scenario_text(scenario)
         digest.update(f"{scenarios[id(scenario)]} {laws[id(law)]}\n".encode())
     return digest.hexdigest()
 
 
-def _describe(law: Any) -> str:
-    if " object at 0x" not in repr(law):
-        return f"{law!r} {_code(law)}"
+def _scenario_text(scenario: Scenario) -> str:
+    """Return a scenario as text, with what a hand or a world of the user's own does in place of where it lies."""
+    world = foreign(scenario.environment)
+    parts = [scenario.hand.model, getattr(world, "function", None), getattr(world, "engine", None)]
+    text = repr(scenario)
+    for part in (part for part in parts if part is not None):
+        text = text.replace(repr(part), _describe(part))
+    return text
+
+
+def _describe(part: Any) -> str:
+    """Return a law, hand or function as text: its values, and its code where it is a user's own."""
+    if isinstance(part, MethodType):
+        return f"{_describe(part.__self__)}.{part.__func__.__qualname__}"
+    if isinstance(part, FunctionType):
+        return f"{part.__module__}.{part.__qualname__} {code_print(part)}"
+    if not _ADDRESS.search(repr(part)):
+        return f"{part!r} {_code(part)}"
     # The default repr holds an address, which is another one after a restart.
-    values = sorted(getattr(law, "__dict__", {}).items())
-    return f"{type(law).__module__}.{type(law).__qualname__} {values!r} {_code(law)}"
+    values = _ADDRESS.sub("", repr(sorted(getattr(part, "__dict__", {}).items())))
+    return f"{type(part).__module__}.{type(part).__qualname__} {values} {_code(part)}"
 
 
 def _code(part: Any) -> str:

@@ -96,15 +96,20 @@ def tune(
     done: list[Tuned] = []
     total = len(groups) * evaluations
     for i, (delay, chosen) in enumerate(groups.items()):
-        search = Search(law, searched, chosen, hands, start, seed, threads)
-        search.report = lambda n, i=i: progress and progress(min(i * evaluations + n, total), total)
         stopped = False
         try:
-            search.run(evaluations)
-        except KeyboardInterrupt:
+            search = Search(law, searched, chosen, hands, start, seed, threads)
+            search.report = lambda n, i=i: (
+                progress and progress(min(i * evaluations + n, total), total)
+            )
+            try:
+                search.run(evaluations)
+            except KeyboardInterrupt:
+                stopped = True
+            if search.tried:
+                done.append(_judged(search, delay, others, start, seed, threads))
+        except KeyboardInterrupt:  # before the search, or while its result was judged
             stopped = True
-        if search.tried:
-            done.append(_judged(search, delay, others, start, seed, threads))
         if stopped:
             raise TuningInterrupted(done)
     return done

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ebac._core import LinearLoop, Timing, Wall
+from ebac._core import LinearLoop, Recorded, Timing, Wall
 from ebac._util.arguments import require, several
 from ebac._util.arrays import Values
 from ebac.laws import LAWS, AnyLaw
@@ -113,6 +113,13 @@ def zwidth(
     )  # fmt: skip
 
 
+def _further(path: Any, way: float) -> Any:
+    """Return a target that comes to rest `way` further [m]."""
+    if isinstance(path, Recorded):
+        return path.replace(x=np.asarray(path.x) + way)
+    return path.replace(target=path.target + way)
+
+
 class _Search:
     def __init__(self, base: Scenario, epsilon: float, hands: int, how: dict[str, Any]) -> None:
         self.base = base
@@ -125,10 +132,8 @@ class _Search:
         ]
         self.runs = len(APPROACHES) + len(self.explorers)  # for each wall
         first, *others = base.hand.path
-        target: float = getattr(first, "target", 0.0)
         self.hands = {
-            way: base.hand.replace(path=[first.replace(target=target + way), *others])
-            for way in APPROACHES
+            way: base.hand.replace(path=[_further(first, way), *others]) for way in APPROACHES
         }
         self.report: Callable[[int], None] = lambda runs: None
 

@@ -54,6 +54,7 @@ class LawContract(Memory, Numbers, ParameterContract, Agreement, Passivity):
     passive: ClassVar[bool | None] = None
     holds_force: ClassVar[bool] = False
     device: ClassVar[Device] = Device()
+    _left_out: ClassVar[dict[str, Any]] = {}
 
     def __init_subclass__(cls, **more: Any) -> None:
         """Leave out what no law of the class can be asked."""
@@ -61,10 +62,15 @@ class LawContract(Memory, Numbers, ParameterContract, Agreement, Passivity):
         if cls.law is None and not cls.laws:
             return
         subjects = cls.subjects()
+        for base in cls.__mro__[1:]:  # what a contract in between has left out is asked again
+            for name, test in vars(base).get("_left_out", {}).items():
+                setattr(cls, name, test)
+        cls._left_out = {}
         for name in dir(cls):
             test = getattr(cls, name)
             needs = getattr(test, "needs", None)
             if needs is not None and not any(needs(subject) for subject in subjects):
+                cls._left_out[name] = test
                 setattr(cls, name, None)
 
     @classmethod

@@ -62,7 +62,8 @@ class Subject:
     @property
     def designed(self) -> bool:
         """Whether it can be designed for any device and timing."""
-        return self.core is not None or hasattr(self.given, "design")
+        kind = isinstance(self.given, (type, Variant))  # an object is made for one device
+        return kind and (self.core is not None or hasattr(self.given, "design"))
 
     def made(self, timing: Timing | None = None, device: Device | DeviceFacts | None = None) -> Any:
         """Return a fresh law."""
