@@ -376,3 +376,22 @@ def test_a_file_of_another_kind_is_refused(tmp_path: Path, extension: str, libra
     file = tmp_path / f"run.{extension}"
     file.write_bytes(b"no such file at all" * 50)
     assert f"run.{extension}: not a" in invoke("info", file, code=2)
+
+
+def test_an_empty_line_below_the_headings_is_no_end(tmp_path: Path) -> None:
+    (tmp_path / "log.csv").write_text("t [s],x [m]\n\n0.0,0.001\n0.001,0.002\n", encoding="utf-8")
+    assert ebac.load(tmp_path / "log.csv")["x"].tolist() == [0.001, 0.002]
+
+
+@pytest.mark.parametrize("rows", [1, 2, 30])
+def test_a_matlab_file_comes_back_as_it_was(rows: int, tmp_path: Path) -> None:
+    """On and off came back as whole numbers, which no log takes, and one row of two axes as two rows."""
+    pytest.importorskip("scipy")
+    device = ebac.Device(kinematics=ebac.Linear(axes=2))
+    trace = ebac.simulate(ebac.Scenario(device=device, seconds=0.1), "ebac").rows(0, rows)
+    trace.save(tmp_path / "run.mat")
+    back = ebac.load(tmp_path / "run.mat")
+    for name in trace:
+        assert back[name].shape == trace[name].shape, name
+        assert (back[name].dtype == bool) == (trace[name].dtype == bool), name
+    back.save(tmp_path / "run.mcap")

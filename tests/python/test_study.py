@@ -495,3 +495,29 @@ def test_a_hand_of_ones_own_in_the_base_is_not_lost_in_silence() -> None:
         UserWarning, match="the hand of base, Reflex, gives way to those of the population"
     ):
         study(FEW, ["direct"], ["K8"], base=base)
+
+
+class _Broken:
+    """A law that gives no number after 0.2 s, with a name that is no file's."""
+
+    name = "broken 1/2"
+
+    def __init__(self) -> None:
+        self.ticks = 0
+
+    def step(self, port: Any) -> float:
+        self.ticks += 1
+        return float("nan") if self.ticks > 200 else 0.0
+
+    def reset(self) -> None:
+        self.ticks = 0
+
+
+def test_every_failure_of_a_condition_of_drives_has_a_trace_of_its_own(tmp_path: Path) -> None:
+    """All had the name of hand 0, and the last was left."""
+    from ebac.cli.files import ResultOptions
+
+    found = study(FEW[:1], _Broken(), ["pumping"], base=ebac.Scenario(seconds=0.5))
+    assert [failure.drive for failure in found.failures] == list(range(1, 36))
+    study_results.fill(tmp_path, found, 40, ResultOptions(), quiet=True)
+    assert len(list(tmp_path.glob("failure-broken_1_2-pumping-drive*.npz"))) == 35
