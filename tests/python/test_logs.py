@@ -736,3 +736,23 @@ def test_a_part_after_a_change_was_changed(tmp_path: Path) -> None:
         with pytest.warns(UserWarning, match="were changed while this log was recorded"):
             ebac.replay(part, "direct")
     assert not ebac.load(path, stop=0.1).changed
+
+
+def test_a_recorder_whose_end_was_interrupted_can_be_ended(tmp_path: Path) -> None:
+    """The second call did nothing: the last rows and the summary were lost, and the file stayed open."""
+    recorder = Recorder(rows_of(), tmp_path / "run.mcap", interval=10.0)
+    join = recorder._threads[0].join
+    interrupts = iter([KeyboardInterrupt])
+
+    def interrupted(*args: Any) -> None:
+        for error in interrupts:
+            raise error
+        join(*args)
+
+    recorder._threads[0].join = interrupted  # type: ignore[method-assign]
+    with pytest.raises(KeyboardInterrupt):
+        recorder.close()
+    recorder.close()
+    log = read(tmp_path / "run.mcap")
+    assert len(log.trace) == recorder.written > 0
+    assert log.condition.complete
