@@ -90,7 +90,8 @@ def laws(given: Sequence[str], option: str = "--law") -> dict[str, AnyLaw]:
         name = law_name(law)
         if name in LAWS or name in found:
             raise ValueError(
-                f"{option} {word}: its name is {name}, as that of another law; give its class another `name`"
+                f"{option} {word}: its name is {name}, as that of another law; give its class another `name`, or, of "
+                "several objects of one class, each a `name` of its own"
             )
         found[name] = law
     return found

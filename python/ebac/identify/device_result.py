@@ -160,7 +160,8 @@ class DeviceResult:
     def compensation(self) -> Compensation:
         """Return tau_static of eq. (2), from the lower bounds of the estimates.
 
-        These are the lower bounds of friction and of the weight, and zero for an impossible device. A weight is carried
+        These are the lower bounds of friction and of the weight, and zero where they are not determined, and for an
+        impossible device. A weight is carried
         with the sign of `Mechanics.gravity`, which `gravity` gives. Inertia is not compensated, because that costs
         damping; see `Compensation`.
 
@@ -176,9 +177,9 @@ class DeviceResult:
             )
         if self.impossible:
             return Compensation()
-        friction = max(0.0, self.estimates["coulomb"].low)
-        found = self.estimates["weight"]
-        weight = max(0.0, found.low, -found.high)
+        rubs, found = self.estimates["coulomb"], self.estimates["weight"]
+        friction = max(0.0, rubs.low) if rubs.determined else 0.0
+        weight = max(0.0, found.low, -found.high) if found.determined else 0.0
         return Compensation(friction=friction, gravity_mass=weight / GRAVITY)
 
     @property

@@ -175,7 +175,7 @@ SURE = 0.9
 
 def told_share(explained: float) -> str:
     """Return a share of the motion (VAF) in words: "97.7 %"; below none the number says nothing."""
-    return f"{100 * explained:.3g} %" if explained >= 0 else "below 0"
+    return f"{100 * explained:.3g} %" if explained >= 0 else "less than nothing"
 
 
 #: What turning a force means, by what is turned.
@@ -195,9 +195,9 @@ def flip_advice(sentence: str, explained: float, other_sign: float, turned: str 
     words = {"force": "the force", "motor": "the motor's force"}
     other = " and ".join(words[n] for n in names)
     return (
-        f"{sentence.format(told_share(explained))}, with {other} of the other sign "
+        f"{sentence.format(told_share(explained))}; with {other} of the other sign "
         f"{100 * other_sign:.3g} %: the log seems to hold {', and '.join(TURNED[n] for n in names)}. {options} "
-        f"{'turns the sign, and is to be left out where it was given' if len(names) == 1 else 'turn the signs'}, "
+        f"{'turns the sign (leave it' if len(names) == 1 else 'turn the signs (leave the one'} out that was given), "
         f"in Python load(..., {', '.join(f'flip_{n}=True' for n in names)})."
     )
 

@@ -82,9 +82,15 @@ def changed(law: AnyLaw, **changes: Any) -> AnyLaw:
     if is_core_law(law):
         return law.replace(**changes)
     if not hasattr(law, "__dataclass_fields__"):
-        raise TypeError(f"{law!r} cannot be changed: a law in Python must be a dataclass for that")
+        raise TypeError(
+            f"the law {law_name(law)} has no parameters to change: those of a law in Python are the fields of a "
+            "dataclass; put @dataclass above its class"
+        )
     own: Any = law
     refuse_unknown(type(law).__name__, changes, [one.name for one in dataclasses.fields(own)])
+    for name, value in changes.items():
+        if isinstance(value, bool) and not isinstance(getattr(own, name), bool):
+            raise TypeError(f"{type(law).__name__}.{name} = {value}: must be a number")
     return cast(PythonLaw, dataclasses.replace(own, **changes))
 
 

@@ -141,7 +141,7 @@ def _title(found: ZWidth, criteria: list[str]) -> str:
             [
                 "hardest wall K by wall damping B",
                 *filter(None, (means[c] for c in criteria)),
-                "of borders that coincide, drawn one below the other, the uppermost is true",
+                "borders that coincide are drawn below each other, the top one is true",
             ]
         ),
     ]

@@ -176,7 +176,12 @@ def _show_one(row: dict[str, Any]) -> None:
         allowed = _range(parameter["low"], parameter["high"]) if bounded else ""
         unit = "" if parameter["unit"] in ("1", None) else parameter["unit"]
         grid.add_row(parameter["name"], designed, default, allowed, unit, parameter["meaning"])
-    output.show(grid)
+    if row["parameters"]:
+        output.show(grid)
+    else:
+        output.say(
+            "It has no parameters that --change could set: those of a law in Python are the fields of a dataclass."
+        )
 
 
 def _text(value: object) -> str:

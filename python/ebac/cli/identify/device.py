@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import textwrap
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -65,6 +66,7 @@ def device(
                 **more,
                 remarks=list(recording.remarks),
                 lag_seems_s=None if late is None else late.lag,
+                device_toml=table or None,
             )
         )
         _end(result)
@@ -80,8 +82,9 @@ def device(
         if not (result.impossible and text in result.misses):  # the error says it
             output.say(text)
     if table:
+        output.say(f"handle_mass is M_h less {rotor[0]:.4g} kg, the rotor {rotor[1]}.")
         output.say("In the file of the device:")
-        output.indented(table)
+        typer.echo(textwrap.indent(table, "  "))  # no line of it may be broken
     if to.out is not None:
         output.list_files(to.out, files)
     _end(result)
@@ -135,9 +138,12 @@ def _tables(result: DeviceResult, rotor: float, whose: str) -> str:
         found = result.estimates.get(name)
         if found is None:
             continue
-        value, why = found.low, ", the lower end of the interval"
+        value, why = (
+            found.low,
+            ", the lower end of the interval" + ", not below 0" * (found.low < 0),
+        )
         if name == "M_h":
-            value, why = found.value - rotor, f": M_h less {rotor:.4g} kg, the rotor {whose}"
+            value, why = found.value - rotor, ": M_h less the rotor"
             handle = value if found.determined else 0.0
         if not found.determined:
             lines.append(f"# {key}: {name} is not determined by this log")
@@ -147,19 +153,23 @@ def _tables(result: DeviceResult, rotor: float, whose: str) -> str:
             )
         else:
             lines.append(f"{key} = {max(value, 0.0):.4g} # {found.unit}{why}")
+    weight = result.estimates["weight"]
     static = result.compensation
     carried = static.gravity_mass * result.gravity  # N
-    gravity = result.gravity
-    if carried and handle > 0:
-        gravity = result.estimates["weight"].value / handle
-        lines.append(f"gravity = {gravity:.4g} # m/s^2: gives the handle the weight that was found")
-    elif carried:
-        lines.append(f"gravity = {gravity:.4g} # m/s^2, the way in which the weight pulls")
-    lines += ["[device.compensation]", f"friction = {static.friction:.4g} # N, as coulomb"]
+    gravity = weight.value / handle if carried and handle > 0 else result.gravity
     if carried:
-        lines.append(
-            f"gravity_mass = {carried / gravity:.4g} # kg: times gravity the least weight, {abs(carried):.4g} N"
-        )
+        lines.append(f"gravity = {gravity:.4g} # m/s^2: with it the handle weighs what was found")
+    compensated = []
+    if static.friction > 0:
+        compensated.append(f"friction = {static.friction:.4g} # N, as coulomb")
+    if carried:
+        least = f"kg: times gravity {abs(carried):.4g} N, the least weight"
+        compensated.append(f"gravity_mass = {carried / gravity:.4g} # {least}")
+    if compensated:
+        lines += [
+            "# The motors carry weight and friction, whatever the law does, where these lines count:",
+            *(f"# {line}" for line in ("[device.compensation]", *compensated)),
+        ]
     return "\n".join(lines)
 
 
