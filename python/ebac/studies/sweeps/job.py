@@ -66,7 +66,7 @@ class Job:
             try:
                 while not work.wait(LOOK):
                     self.progress(self.done + watch.done, len(self.runs))
-            except BaseException as error:  # Ctrl-C, or of whoever is told the progress
+            except BaseException as error:  # Ctrl-C, or what `progress` raises
                 watch.core.cancel()
                 columns = work.result()
                 if isinstance(error, KeyboardInterrupt):
