@@ -102,7 +102,7 @@ class Form:
     def rows(self) -> list[Row]:
         """Return what the package keeps of the search."""
         name = "tuned_rivals_observer" if "observer" in self.ending else "tuned_rivals"
-        file = Path(ebac.__file__).with_name(f"{name}.json")
+        file = Path(ebac.laws.__file__).with_name(f"{name}.json")
         rows: list[Row] = json.loads(file.read_text("utf-8"))["rows"]
         return rows
 
