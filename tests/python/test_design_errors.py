@@ -24,3 +24,9 @@ def test_a_number_that_was_given_is_named_with_its_unit() -> None:
         ValueError, match=r"^LagCompensator\.recovery_time = 300 s: .*; 300 ms is 0.3 s$"
     ):
         design("lag-compensator", LIGHT, ebac.Timing(), recovery_time=300)
+
+
+def test_a_device_without_damping_is_named_itself() -> None:
+    device = ebac.Device(mechanics=ebac.Mechanics(damping=0.0))
+    with pytest.raises(ValueError, match=r"^Mechanics\.damping = 0 N s/m: must lie in \[0\.01,"):
+        ebac.design("ebac", device, ebac.Timing())

@@ -319,3 +319,12 @@ def test_bodies_are_refused_in_the_words_of_the_command(tmp_path: Path) -> None:
         "needs a Wall, the scenario has a Disc; start on the surface: --approach 0"
         in refused.stderr
     )
+
+
+def test_where_no_law_is_good_the_command_says_what_to_try(tmp_path: Path) -> None:
+    file = tmp_path / "device.toml"
+    file.write_text("[device.sensor]\nfitted = false\n", encoding="utf-8")
+    words = f"--scenario {file} --law tca --wall-stiffness 20000 --population random --hands 2 --seconds 1"
+    said = " ".join(command(*words.split(), "--no-files").split())
+    assert "No law is good here. What may change that: --share 0.95" in said
+    assert "a force sensor; friction, if the device has some" in said

@@ -97,3 +97,10 @@ def test_energies_as_they_are_written() -> None:
     assert {e: printed.joules(e) for e in told} == told
     assert printed.joules(-0.0) == "0"
     assert printed.joules(None) == "-"
+
+
+def test_the_parameters_on_the_page_are_those_of_the_package() -> None:
+    """The table of them could not be written: its file had moved."""
+    page = (DOCS / "explanation" / "rivals.md").read_text(encoding="utf-8")
+    wanted = rival_tables.tuned_values(None).strip()  # type: ignore[arg-type]
+    assert f"<!-- table: tuned-values -->\n{wanted}\n<!-- end -->" in page

@@ -24,7 +24,8 @@ def by_cause(
     if found is None or found[2] in changes or not isinstance(device, Device):
         return message
     if found[2] == "damping":
-        return _spent_by_compensation(device, found[1]) or message
+        own = f"Mechanics.damping = {device.mechanics.damping:g} N s/m: {found[3]}, as {found[1]} follows from it"
+        return _spent_by_compensation(device, found[1]) or own
     noise = device.sensor.noise
     return f"ForceSensor.noise = {noise:g} N: {found[3]}, as {found[1]} follows from it"
 

@@ -190,6 +190,7 @@ def _show(found: Stiffest) -> None:
     output.show(grid)
     _show_again(found)
     _show_exact_only(found)
+    _show_next_step(found)
     output.say(
         f"{_up_to_which(found)} Drawn: most energy that any hand draws in any window at that wall. Settled: median of "
         "the hands that settle there. On impact: the force where a hand goes deepest, over that of the wall there, in "
@@ -232,6 +233,21 @@ def _show_exact_only(found: Stiffest) -> None:
                 f"{formatting.quantity(row.exact_and_still_settled_s, 's')}, "
                 f"{formatting.quantity(row.exact_and_still_impact_share, 'share')} on impact."
             )
+
+
+def _show_next_step(found: Stiffest) -> None:
+    """Say what to try where no law is good at any wall for as many hands as were asked for."""
+    if any(row.good_N_per_m is not None for row in found.rows):
+        return
+    tries = []
+    if found.share > 0.95:
+        tries.append("--share 0.95, which leaves out 5 % of the hands")
+    if not found.base.device.sensor.fitted:
+        tries.append("a force sensor")
+    if found.base.device.mechanics.coulomb == 0:
+        tries.append("friction, if the device has some: [device.mechanics] coulomb")
+    if tries:
+        output.say(f"No law is good here. What may change that: {'; '.join(tries)}.")
 
 
 def _kilo(stiffness: float | None, top: float) -> str:
