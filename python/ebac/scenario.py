@@ -9,8 +9,6 @@ from math import cos
 from pathlib import Path
 from typing import Any, Final, Literal, Self, TypeAlias
 
-import numpy as np
-
 from ebac._core import (
     Corner,
     Device,
@@ -138,8 +136,10 @@ class Scenario:
         object.__setattr__(self, "hand", as_hand(self.hand))
         object.__setattr__(self, "environment", as_environment(self.environment))
         for name in (*_NUMBERS, "observer"):
-            if isinstance(value := getattr(self, name), np.generic):
-                object.__setattr__(self, name, value.item())
+            if item := getattr(
+                getattr(self, name), "item", None
+            ):  # of NumPy, which is not loaded for it
+                object.__setattr__(self, name, item())
         parts: dict[str, tuple[type, ...]] = {
             "device": (Device,),
             "hand": (Hand,),
