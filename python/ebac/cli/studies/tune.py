@@ -50,7 +50,7 @@ def tune(
         ),
     ] = 120,
     seed: Annotated[
-        int, typer.Option(help="Seed of noise and jitter.", min=0, rich_help_panel=_SEARCH)
+        int, typer.Option(help="Seed of noise, jitter and search.", min=0, rich_help_panel=_SEARCH)
     ] = 1,
     threads: options.Threads = None,
     out: Annotated[

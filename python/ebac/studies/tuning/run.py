@@ -56,7 +56,7 @@ def tune(
     evaluations : int
         Points to try for each delay, at least 2; each runs every training hand under every condition of the delay.
     seed : int
-        Gives each hand its noise and jitter.
+        Gives each hand its noise and jitter, and the search its points.
     threads : int, optional
         Default: one per usable core.
     progress : callable, optional
