@@ -23,7 +23,7 @@ from ebac.plot.legends import figure_legend, legend
 from ebac.trace import Trace
 
 #: Colours of laws that have none of their own: a user's, or one with other parameters.
-OTHER_LAWS = ("#9933ff", "#994d80", "#664dcc")
+OTHER_LAWS = ("#5f44f8", "#ba0103", "#8d5078")
 #: Shares of white, or of black below zero, in the colours of the forms of one design in a picture.
 FORMS = (0.0, 0.4, -0.5)
 #: One colour per quantity that is not the law's own, in figures and on pages alike.
