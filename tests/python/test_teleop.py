@@ -9,6 +9,7 @@ import sys
 import threading
 import time
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -718,3 +719,16 @@ def test_a_run_equals_itself_alone() -> None:
     one, other = (teleop.simulate("waves", seconds=0.2) for _ in range(2))
     assert one == one
     assert one != other
+
+
+def test_a_run_that_did_not_end_is_no_calm_one_in_the_figure() -> None:
+    """It was drawn at the lower edge, as the calmest of all."""
+    from types import SimpleNamespace
+
+    from ebac.plot.teleop import _values
+
+    known = {"least_network_J": 0.0, "transparency": 1.0}
+    rows: Any = [SimpleNamespace(shaking_m=one, **known) for one in (4e-3, float("inf"))]
+    shaking, _, _ = _values(rows)
+    assert shaking[0] == pytest.approx(4.0)
+    assert np.isnan(shaking[1])

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from contextlib import suppress
 from types import CodeType, FunctionType
 from typing import Any
 
+#: Where an object lies in memory, in a text that has nothing better: another place in every run.
+ADDRESS = re.compile(r" at 0x[0-9a-fA-F]+")
 #: What a class holds beside its code; `copy` adds the slot names when an object is first copied.
 _NO_CODE = ("__module__", "__doc__", "__firstlineno__", "__slotnames__")
 _PLAIN = (bool, int, float, complex, str, bytes, type(None))

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import dataclasses
-import re
 from collections.abc import Mapping
 from typing import Any, TypeAlias, cast
 
 from ebac._util.arguments import refuse_unknown, require, unknown_name
+from ebac._util.code_print import ADDRESS
 from ebac._util.wrong_calls import plain_constructor
 from ebac.laws.protocols import LAWS, CoreLaw, PythonLaw, is_core_law
 from ebac.laws.tuned_laws import tuned_laws
@@ -53,9 +53,6 @@ class Variant:
             [law_name(self.law), *(f"{n} = {shown_value(v)}" for n, v in self.changes.items())]
         )
 
-
-#: Where an object lies in memory, in a text that has nothing better: another place in every run.
-_ADDRESS = re.compile(r" at 0x[0-9a-fA-F]+")
 
 AnyLaw: TypeAlias = str | type[CoreLaw] | type[PythonLaw] | CoreLaw | PythonLaw | Variant
 
@@ -136,7 +133,7 @@ def law_text(law: CoreLaw | PythonLaw) -> str:
             if not name.startswith("_")
         ]
         text = f"{type(law).__name__}({', '.join(f'{name}={value!r}' for name, value in fields)})"
-    return _ADDRESS.sub("", text)
+    return ADDRESS.sub("", text)
 
 
 def shown_value(value: bool | float) -> str:

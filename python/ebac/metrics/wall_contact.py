@@ -73,7 +73,7 @@ def contact(trace: Trace, *, axis: int | None = None, truth: bool = True) -> Con
         30 %, so that a contact is still and quiet only where all of them are.
     truth : bool
         Whether to take what a simulation knows, where the trace has it; False measures it by its readings, as a
-        recorded run is measured.
+        recorded run is measured; whether the handle moves with its hand is judged by the truth all the same.
 
     Of a run over drives only the rows in which the law acted are measured. A trace that was `changed` during its run
     has no ideal rest: it is measured, and not judged exact.

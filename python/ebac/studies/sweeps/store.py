@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import hashlib
 import json
-import re
 from collections.abc import Sequence
 from contextlib import ExitStack
 from pathlib import Path
@@ -15,14 +14,12 @@ import numpy as np
 
 from ebac._core import RunLimits
 from ebac._util.atomic_folder import NO_LOCKS, locked
-from ebac._util.code_print import code_print
+from ebac._util.code_print import ADDRESS, code_print
 from ebac._util.foreign_worlds import foreign
 from ebac.scenario import Scenario
 from ebac.studies.sweeps.measure import Columns, Run, empty
 
 MANIFEST = "sweep.json"
-#: Where an object lies in memory, in a text that has nothing better.
-_ADDRESS = re.compile(r" at 0x[0-9a-fA-F]+")
 
 
 def fingerprint(runs: Sequence[Run], limits: RunLimits) -> str:
@@ -57,10 +54,10 @@ def _describe(part: Any) -> str:
         return f"{_describe(part.__self__)}.{part.__func__.__qualname__}"
     if isinstance(part, FunctionType):
         return f"{part.__module__}.{part.__qualname__} {code_print(part)}"
-    if not _ADDRESS.search(repr(part)):
+    if not ADDRESS.search(repr(part)):
         return f"{part!r} {_code(part)}"
     # The default repr holds an address, which is another one after a restart.
-    values = _ADDRESS.sub("", repr(sorted(getattr(part, "__dict__", {}).items())))
+    values = ADDRESS.sub("", repr(sorted(getattr(part, "__dict__", {}).items())))
     return f"{type(part).__module__}.{type(part).__qualname__} {values} {_code(part)}"
 
 
