@@ -66,7 +66,7 @@ void add_work(py::class_<JoystickServer<Bus>>& cls) {
 }  // namespace
 
 void bind_node_server(py::module_& m) {
-  const py::class_<DrivenMachine, std::shared_ptr<DrivenMachine>> load(m, "_DrivenMachine");
+  const py::class_<DrivenMachine, std::shared_ptr<DrivenMachine>> driven(m, "_DrivenMachine");
   using OnLoopback = JoystickServer<can::LoopbackBus>;
   using OnSocketCan = JoystickServer<can::SocketCan>;
   py::class_<OnLoopback> inside(

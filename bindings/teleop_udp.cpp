@@ -71,11 +71,11 @@ void bind_teleop_udp(py::module_& m) {
   network
       .def(
           py::init([](const teleop::Link& there, const teleop::Link& back, std::uint64_t seed,
-                      const std::string& host, int port, const std::string& slave, int slave_port) {
+                      const std::string& host, int port, const std::string& slave_host, int slave_port) {
             return from_system([&] {
               return std::make_unique<UdpNetwork>(there, back, seed,
                                                   endpoint("network", host, port),
-                                                  endpoint("slave", slave, slave_port));
+                                                  endpoint("slave", slave_host, slave_port));
             });
           }),
           py::kw_only(), py::arg("there"), py::arg("back"), py::arg("seed"), py::arg("host"),

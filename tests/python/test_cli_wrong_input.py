@@ -150,6 +150,17 @@ def test_a_fact_that_only_a_file_gives_is_named_by_its_key(option: str) -> None:
     assert not key or f"\n{key.split()[0]} = " in section
 
 
+def test_a_value_of_a_file_is_not_blamed_on_an_option(tmp_path: Path) -> None:
+    """The remedy began with --device-friction-compensation, which nobody had given."""
+    (tmp_path / "device.toml").write_text("[device.compensation]\nfriction = 0.05\n")
+    words = ["wall", "--law", "ebac", "--no-files", "--scenario", str(tmp_path / "device.toml")]
+    done = CliRunner().invoke(app, words)
+    assert done.exit_code == 2
+    assert done.stderr.startswith("Error: Compensation.friction = 0.05 N: ")
+    given = CliRunner().invoke(app, [*words, "--device-friction-compensation", "0.06"])
+    assert given.stderr.startswith("Error: --device-friction-compensation = 0.06 N: ")
+
+
 @pytest.mark.parametrize("option", IN_CONFIGURATION)
 def test_an_option_that_is_a_key_of_the_configuration_is_named_by_it(option: str) -> None:
     done = CliRunner().invoke(app, ["run", "joystick.toml", option])

@@ -586,6 +586,8 @@ def test_energy_laws_refuse_a_device_whose_damping_is_spent() -> None:
     message = r"Compensation\.friction = 0\.3 N: more than the Coulomb friction of the device, 0 N, .* -13 N s/m"
     with pytest.raises(ValueError, match=message):
         ebac.simulate(ebac.Scenario(device=device), "eba")
+    with pytest.raises(ValueError, match=message):  # a study knows the facts of the device alone
+        ebac.study(ebac.Operators.grid()[:1], "eba", base=ebac.Scenario(device=device))
     with pytest.raises(ValueError, match=r"EBA\.damping = 0 N s/m: must lie in \[0\.01, 500\]"):
         ebac.simulate(ebac.Scenario(device=device), "eba", damping=0.0)
 

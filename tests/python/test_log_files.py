@@ -395,3 +395,19 @@ def test_a_matlab_file_comes_back_as_it_was(rows: int, tmp_path: Path) -> None:
         assert back[name].shape == trace[name].shape, name
         assert (back[name].dtype == bool) == (trace[name].dtype == bool), name
     back.save(tmp_path / "run.mcap")
+
+
+@pytest.mark.parametrize(
+    ("left_out", "says"),
+    [(0, "was complete and undamaged: the new log has the same rows."), (10, "was cut: its end")],
+)
+def test_a_repair_says_what_was_wrong(tmp_path: Path, left_out: int, says: str) -> None:
+    path = tmp_path / "run.mcap"
+    ebac.simulate(ebac.Scenario(seconds=3.0), "direct").save(path)
+    data = path.read_bytes()
+    path.write_bytes(data[: len(data) - left_out])
+    done = runner.invoke(app, ["log", "repair", str(path)])
+    assert done.exit_code == 0, done.output
+    assert says in " ".join(done.stdout.split())
+    told = runner.invoke(app, ["log", "repair", str(path), "-o", f"{path}-2.mcap", "--json"])
+    assert json.loads(told.stdout)["complete"] is (left_out == 0)

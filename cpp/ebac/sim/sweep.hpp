@@ -74,7 +74,7 @@ inline bool keep_row(const Sample& s, const SimulatedDevice& device, const Clamp
     const double at = device.state(i).x;
     const bool acts = port.f_env != 0 || port.f_cmd != 0 || port.f_applied != 0;
     recorder.add_axis(i, at, port.f_applied);
-    recorder.add_world(i, port.f_env, acts ? setup.hand.pull(i, s.t, at) : 0.0);
+    recorder.add_world(i, port.f_env, acts ? setup.hand.pull(static_cast<int>(i), s.t, at) : 0.0);
     if (clamped[i] != nullptr) recorder.add_clamped(i, *clamped[i]);
   }
   return x.cwiseAbs().maxCoeff() <= limits.position && energy >= -limits.energy;

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 import re
+from typing import Any
 
 #: What the library calls the numbers that options give.
 OPTIONS = {
@@ -38,6 +39,23 @@ OPTIONS = {
 
 #: The options of the command that runs, by the names of its parameters.
 current: dict[str, str] = {}
+#: Those that were not given beside a file: a value of that name stands in the file.
+left_to_file: set[str] = set()
+#: Parameters that name such a file.
+FILES = ("scenario", "configuration")
+
+
+def begin(context: Any) -> None:
+    """Take the options of a command that begins, from its context."""
+    from ebac.cli.wrong_input import option_name
+
+    current.clear()
+    left_to_file.clear()
+    params = context.command.params
+    current.update({p.name: option_name(p) for p in params})
+    if any(context.params.get(name) is not None for name in FILES):
+        given = [p for p in params if context.get_parameter_source(p.name).name == "COMMANDLINE"]
+        left_to_file.update(current[p.name] for p in params if p not in given)
 
 
 def in_options(message: str) -> str:
@@ -61,7 +79,7 @@ def in_options(message: str) -> str:
         option = OPTIONS.get(name)
         if option not in current.values():
             option = current.get(name.rpartition(".")[2])
-        if option is not None:
+        if option is not None and option not in left_to_file:
             return option + message[found.end() :]
     return message
 

@@ -48,8 +48,7 @@ class Command(TyperCommand):
 
     def invoke(self, ctx: Any) -> Any:
         """Run the command."""
-        by_option.current.clear()
-        by_option.current.update({p.name: wrong_input.option_name(p) for p in self.params})
+        by_option.begin(ctx)
         with files.claims(), interrupts.interruptible(), silent(), _faults_in_one_line():
             return super().invoke(ctx)
 

@@ -43,14 +43,23 @@ def repair(
     FileNotFoundError, ValueError
         As `read`; ValueError also for an `out` that does not end in .mcap, and where no row can be read.
     """
-    path = Path(path)
-    out = repaired_name(path) if out is None else Path(out)
-    extension(out, (".mcap",))
-    if out.exists():
-        raise FileExistsError(17, "File exists", str(out))
-    log = read(path, progress=progress)
+    new = new_name(Path(path), out)
+    return rewritten(read(path, progress=progress), new)
+
+
+def new_name(path: Path, out: str | Path | None) -> Path:
+    """Return where the repaired log goes. Raises FileExistsError, and ValueError as `repair`."""
+    new = path.with_name(f"{path.stem}.repaired.mcap") if out is None else Path(out)
+    extension(new, (".mcap",))
+    if new.exists():
+        raise FileExistsError(17, "File exists", str(new))
+    return new
+
+
+def rewritten(log: Log, out: Path) -> Log:
+    """Write what was read of a log to a new file; return that, read back."""
     if not len(log.trace) and not log.events:
-        raise ValueError(f"{path}: nothing can be recovered: no row of it can be read")
+        raise ValueError(f"{log.path}: nothing can be recovered: no row of it can be read")
     data = {name: log.trace[name] for name in log.trace}
     try:
         with LogWriter(out, layout=Layout.of(data, log.trace.columns), about=log.about) as new:
@@ -67,8 +76,3 @@ def repair(
         out.unlink(missing_ok=True)  # ours, and not whole
         raise
     return read(out)
-
-
-def repaired_name(path: Path) -> Path:
-    """Return the name a repaired log gets."""
-    return path.with_name(f"{path.stem}.repaired.mcap")

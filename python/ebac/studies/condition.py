@@ -10,6 +10,7 @@ from ebac.studies import scenario_changes as to
 from ebac.studies.scenario_changes import Belief, Change
 
 if TYPE_CHECKING:
+    from ebac._core import Device, DeviceFacts, Timing
     from ebac.operators import Operators
     from ebac.scenario import Scenario
 
@@ -56,6 +57,12 @@ class Condition:
 
         require(changed, Scenario, f"condition {self.name}", "a change that returns a Scenario")
         return to.observer_of(changed, *self.believed(changed))
+
+
+def known_under(condition: Condition, scenario: Scenario) -> tuple[Device | DeviceFacts, Timing]:
+    """Return for what laws are designed: where nothing is mistaken the device itself, whose parts an error can name."""
+    believed = condition.believed(scenario)
+    return (scenario.device, believed[1]) if believed == to.truth(scenario) else believed
 
 
 def cell(delay: int, damping: float | None, stiffness: float) -> Change:

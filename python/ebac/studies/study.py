@@ -15,7 +15,7 @@ from ebac._util.arguments import require
 from ebac._util.progress import Progress
 from ebac.operators import Operators
 from ebac.scenario import Scenario
-from ebac.studies.condition import Condition
+from ebac.studies.condition import Condition, known_under
 from ebac.studies.conditions import conditions as find
 from ebac.studies.ideal import ideal_contacts, settled_in_time
 from ebac.studies.result import Study
@@ -90,9 +90,9 @@ def study(
     first = seed if seed is not None else (base or Scenario()).seed
     scenarios = [s.replace(seed=seed_of(first, i)) for part in parts for i, s in enumerate(part)]
     lengths = [len(part) for part in parts]
-    believed = [c.believed(s) for c, part in zip(chosen, parts, strict=True) for s in part]
+    under = [(c, s) for c, part in zip(chosen, parts, strict=True) for s in part]
     result = sweep(
-        scenarios, named, designed_for=believed, threads=threads, executor=executor,
+        scenarios, named, designed_for=[known_under(c, s) for c, s in under], threads=threads, executor=executor,
         out=out, resume=resume, progress=progress,
     )  # fmt: skip
     ideal = ideal_contacts(scenarios, threads)
@@ -109,8 +109,8 @@ def study(
     columns["good"] = result.good
     columns["settled_in_time"] = settled_in_time(result, columns["ideal_settled_s"])
     return Study(
-        operators=population, conditions=chosen, scenarios=scenarios, designed_for=believed,
-        laws=named, columns=columns,
+        operators=population, conditions=chosen, scenarios=scenarios,
+        designed_for=[c.believed(s) for c, s in under], laws=named, columns=columns,
     )  # fmt: skip
 
 

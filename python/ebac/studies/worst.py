@@ -15,7 +15,7 @@ from ebac.laws import AnyLaw, design, law_name
 from ebac.laws.making import reserve_of
 from ebac.laws.tuned_laws import on_its_observer
 from ebac.scenario import Scenario
-from ebac.studies.condition import Condition
+from ebac.studies.condition import Condition, known_under
 from ebac.studies.conditions import conditions
 from ebac.studies.families import PULL, families, find_family
 from ebac.studies.hand_search import HandSearch, WorstHand, every_row
@@ -170,7 +170,7 @@ def worst(
     """
     where = _condition(condition, base or Scenario())
     scenario = on_its_observer(where.made(where.change(base or Scenario())), law)
-    made = design(law, *where.believed(scenario))
+    made = design(law, *known_under(where, scenario))
     declared = getattr(made, "pull", None)
     most = pull if pull is not None else max(PULL, declared or 0.0)
     _check(evaluations=(evaluations, 40, 10**7), seed=(seed, 0, 2**31 - 1), pull=(most, 1e-3, 1e3))

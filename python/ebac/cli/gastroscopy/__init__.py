@@ -6,7 +6,7 @@ from typing import Any
 
 import typer
 
-from ebac.cli import by_option, interrupts, wrong_input
+from ebac.cli import by_option, interrupts
 from ebac.cli.command import Group, add, expanded
 from ebac.cli.gastroscopy import chain, drives, navigate, study
 
@@ -16,8 +16,7 @@ class OwnAndStudy(Group):
 
     def invoke(self, ctx: Any) -> Any:
         """Run the navigation, or the study."""
-        by_option.current.clear()
-        by_option.current.update({p.name: wrong_input.option_name(p) for p in self.params})
+        by_option.begin(ctx)
         with interrupts.interruptible():
             return super().invoke(ctx)
 

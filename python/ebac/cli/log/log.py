@@ -145,13 +145,16 @@ def repair(
 
     * `ebac wall --law ebac --log run.mcap`, then `ebac log repair run.mcap`: writes run.repaired.mcap
     """
-    from ebac.logs import repair as repaired
+    from ebac.logs import read
+    from ebac.logs.repair import new_name, rewritten
 
     if file.exists() and file.suffix.lower() != ".mcap":
         output.fail(f"{file}: only .mcap logs can be repaired")
     with output.refusing(), output.counting(f"reading {file.name}", quiet=as_json) as progress:
         try:
-            new = repaired(file, out, progress=progress)
+            name = new_name(file, out)
+            old = read(file, progress=progress)
+            new = rewritten(old, name)
         except FileExistsError as error:
             output.fail(f"{error.filename}: there is such a file; give another name by --out")
         except OSError as error:
@@ -165,8 +168,11 @@ def repair(
             "events": len(new.events),
             "lost_rows": new.lost,
         }
-        typer.echo(output.document("log repair", [row]))
+        typer.echo(output.document("log repair", [row], **log_info.condition(old)))
     else:
+        whole = f"{file.name} was complete and undamaged: the new log has the same rows."
+        for line in _missing(old) or [whole]:
+            output.say(line, style="yellow")
         output.path(new.path)
         output.say(
             f"{output.plural(len(new.trace), 'row')}, {output.plural(len(new.events), 'event')}."
@@ -283,10 +289,14 @@ def _export_ros2(
 
 def _report(read: Log, *, quiet: bool) -> None:
     """Say what is missing of a log, and end with exit code 3 where it is damaged."""
-    condition = read.condition
-    if not (quiet or condition.complete):
-        output.say(f"{read.path.name} was cut: its end is missing.", style="yellow")
-    if condition.damaged:
-        if not quiet:
-            output.say(f"{read.path.name}: {condition.damage}", style="yellow")
+    for line in [] if quiet else _missing(read):
+        output.say(line, style="yellow")
+    if read.condition.damaged:
         raise typer.Exit(output.DAMAGED)
+
+
+def _missing(read: Log) -> list[str]:
+    """Return what is missing of a log, a sentence each; none for a whole one."""
+    condition, name = read.condition, read.path.name
+    lines = [] if condition.complete else [f"{name} was cut: its end is missing."]
+    return [*lines, f"{name}: {condition.damage}"] if condition.damaged else lines

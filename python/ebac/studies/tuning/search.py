@@ -14,7 +14,7 @@ from ebac.laws import Variant
 from ebac.operators import Operators
 from ebac.scenario import Scenario
 from ebac.studies.breeding import AT_RANDOM, BRED, breed
-from ebac.studies.condition import Condition
+from ebac.studies.condition import Condition, known_under
 from ebac.studies.ideal import ideal_contacts, settled_in_time
 from ebac.studies.sweeps.result import SweepResult
 from ebac.studies.sweeps.run import seed_of, sweep
@@ -43,7 +43,7 @@ class Search:
         self.scenarios = [
             s.replace(seed=seed_of(seed, i)) for _, p in parts for i, s in enumerate(p)
         ]
-        self.known = [c.believed(s) for c, part in parts for s in part]
+        self.known = [known_under(c, s) for c, part in parts for s in part]
         self.ideal_settled_s = ideal_contacts(self.scenarios, threads)["settled_s"]
         self.seed = seed
         self.tried: list[tuple[dict[str, float | bool], float]] = []
