@@ -35,6 +35,9 @@ from ebac.identify.validation import (
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
+#: Of the way of a log: from here on the handle moves.
+STIRS = 0.02
+
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class ArmResult:
@@ -191,6 +194,15 @@ class ArmResult:
                 remedy = (
                     "; it was taken as held in one place. If it went to another, give the times, Target.steps(...) or "
                     "--switch; else record one with more excitation, or fix some of the values"
+                )
+            elif target.switches:
+                r = self.recordings[0]
+                moves = r.t[np.argmax(np.abs(r.x - r.x[0]) > STIRS * np.ptp(r.x))]
+                times = ", ".join(f"{at:g}" for at in target.switches)
+                remedy = (
+                    f"; the target was taken to change at {times} s (Target.steps, --switch), and the handle first "
+                    f"moves at {moves:.2f} s. Correct the times; if they are right, record a log with more "
+                    "excitation, or fix some of the values"
                 )
             else:
                 remedy = "; record one with more excitation, or fix some of the values"
