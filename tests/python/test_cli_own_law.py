@@ -129,6 +129,14 @@ def test_the_commands_that_compare_laws_take_it(command: str) -> None:
     assert "damped" in {row["law"] for row in rows(*command.split(), "--law", "mine.py:Damped")}
 
 
+def test_an_ablation_looks_for_its_parts() -> None:
+    result = run("ablation", "--law", "mine.py:Damped", "--no-files")
+    assert result.exit_code == 2
+    said = " ".join(result.stderr.split())
+    assert "damped has no boolean parameter" in said
+    assert "nothing can be taken away; name a change" in said
+
+
 def test_a_search_changes_its_parameters_and_says_how_to_simulate_its_hand_again() -> None:
     command = "worst --law mine.py:Damped --family impact --evaluations 40 --seconds 0.5 --out"
     words = command.split()

@@ -194,6 +194,7 @@ def test_a_hand_that_is_not_told_has_no_gains() -> None:
         fit_gains(loop)
 
 
+@pytest.mark.slow
 def test_a_wrong_time_of_the_switch_is_doubted() -> None:
     loop = fit_loop(Recording.from_trace(ebac.datasets.press()), Target.steps(2.5))
     with pytest.raises(ValueError, match=r"change at 2\.5 s .* first moves at 1\.0\d? s"):

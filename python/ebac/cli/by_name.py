@@ -28,13 +28,13 @@ def one_law(name: str, option: str = "--law", own: str = _OWN_LAW) -> str:
     return names[0]
 
 
-def any_law(word: str, option: str = "--law") -> AnyLaw:
-    """Return the one law that a name, or a word such as "my_laws:Damped", stands for; one in Python is refused."""
+def any_law(word: str, option: str = "--law", *, python: bool = False) -> AnyLaw:
+    """Return the one law that a name, or a word such as "my_laws:Damped", stands for; one in `python` where it may."""
     if _is_own(word) and "," not in word:
         from ebac.laws.making import IN_PYTHON
 
         law = own_law(word, option)
-        if not hasattr(law, "_simulate"):
+        if not (python or hasattr(law, "_simulate")):
             raise ValueError(f"{option} {word}: {IN_PYTHON}")
         return law
     return one_law(word, option, own=f"; {FORM}")

@@ -40,9 +40,13 @@ def laws(default: str, *, panel: str = RUN) -> Any:
     )
 
 
-def one_law(*, panel: str = RUN, default: str | bool = True, own: bool = False) -> Any:
-    """Return the option for one law; `own`: it may be one of one's own that is compiled."""
-    more = ", or of your own in C++, MODULE:NAME" if own else ""
+#: How a law of one's own is given where it must be compiled, and where it need not be.
+COMPILED, OWN = "in C++, MODULE:NAME", "as FILE.py:NAME"
+
+
+def one_law(*, panel: str = RUN, default: str | bool = True, own: str = "") -> Any:
+    """Return the option for one law; `own`: how it may be one of one's own, COMPILED or OWN."""
+    more = f", or of your own {own}" if own else ""
     return typer.Option(
         "--law",
         "-l",

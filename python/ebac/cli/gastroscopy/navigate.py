@@ -74,7 +74,7 @@ def gastroscopy(
     ctx: typer.Context,
     to: ResultOptions,
     how: MasterOptions,
-    law: Annotated[str, options.one_law(own=True)] = "ebac",
+    law: Annotated[str, options.one_law(own=options.COMPILED)] = "ebac",
     delay: Annotated[
         float,
         typer.Option(

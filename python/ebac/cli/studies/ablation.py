@@ -27,7 +27,7 @@ def ablation(
     device: options.DeviceOptions,
     length: options.RunOptions,
     hands: options.PopulationOptions,
-    law: Annotated[str, options.one_law(panel=_WHAT)] = "ebac",
+    law: Annotated[str, options.one_law(panel=_WHAT, own=options.OWN)] = "ebac",
     change: Annotated[
         list[str] | None,
         typer.Option(
@@ -69,7 +69,7 @@ def ablation(
     folder = to.folder("ablation", as_json=as_json, resume=study_results.BUNDLES * resume)
     with output.refusing():
         given: dict[str, Any] = {
-            "law": by_name.one_law(law),
+            "law": by_name.any_law(law, python=True),
             "changes": [setting.parse_change(one) for one in change or []],
             "beside": by_name.law_names(beside or ("tca", "eba"), "--beside"),
             "base": from_options.scenario(device, length),
