@@ -131,6 +131,12 @@ RULES = (
         fewer="--population random --hands 1 --wall-stiffness 2000",
     ),
     Rule(r"^ebac (study|ablation)\b", SLOW, "takes seconds", fewer="--population random --hands 1"),
+    Rule(
+        r"^ebac tune all\b",
+        SLOW,
+        "takes minutes",
+        fewer="--hands 3 --evaluations 4 -c d1K10",
+    ),
     Rule(r"^ebac tune\b", SLOW, "takes seconds", fewer="--hands 3 --evaluations 4"),
     Rule(
         r"^ebac worst (?=.*--device-noise)(?!.*--family)",
