@@ -25,7 +25,7 @@ Vec vec(const Triple& v) { return {v[0], v[1], v[2]}; }
 
 LumenPtr lumen_of(const PatientParams& patient, const std::vector<Triple>& points,
                   const std::vector<double>& radii, const std::optional<HeldSolid>& wall) {
-  if (points.empty() && !wall) return std::make_shared<Lumen>(patient);
+  if (points.empty() && radii.empty() && !wall) return std::make_shared<Lumen>(patient);
   std::vector<Vec> line;
   line.reserve(points.size());
   for (const Triple& point : points) line.push_back(vec(point));
@@ -148,19 +148,21 @@ void bind_gastroscope(py::module_& m) {
   bind_navigation(m);
   m.def(
       "_run_procedure",
-      [](const Procedure& procedure, const Setup& setup, const AnyLaw& law, int every) {
+      [](const Procedure& procedure, const Setup& setup, const AnyLaw& law, int every,
+         SweepProgress& progress) {
         std::vector<ProcedureRow> rows;
         Findings found;
         {
           const OthersRun release;
-          found = run_procedure(procedure, setup, law, every, &rows);
+          found = run_procedure(procedure, setup, law, every, progress, &rows);
         }
         Values columns;
         add_columns<ProcedureRow>(columns, rows,
                                   [](const ProcedureRow& r) -> const ProcedureRow& { return r; });
         return std::pair(values_of(found), columns);
       },
-      py::arg("procedure"), py::arg("setup"), py::arg("law"), py::arg("every"));
+      py::arg("procedure"), py::arg("setup"), py::arg("law"), py::arg("every"),
+      py::arg("progress"));
   m.def(
       "_run_procedures",
       [](const std::vector<const Procedure*>& procedures, const std::vector<const Setup*>& setups,

@@ -69,17 +69,17 @@ void bind_teleop_udp(py::module_& m) {
   add_run(slave);
   py::class_<UdpNetwork> network(m, "_UdpNetwork");
   network
-      .def(
-          py::init([](const teleop::Link& there, const teleop::Link& back, std::uint64_t seed,
-                      const std::string& host, int port, const std::string& slave_host, int slave_port) {
-            return from_system([&] {
-              return std::make_unique<UdpNetwork>(there, back, seed,
-                                                  endpoint("network", host, port),
-                                                  endpoint("slave", slave_host, slave_port));
-            });
-          }),
-          py::kw_only(), py::arg("there"), py::arg("back"), py::arg("seed"), py::arg("host"),
-          py::arg("port"), py::arg("slave"), py::arg("slave_port"))
+      .def(py::init([](const teleop::Link& there, const teleop::Link& back, std::uint64_t seed,
+                       const std::string& host, int port, const std::string& slave_host,
+                       int slave_port) {
+             return from_system([&] {
+               return std::make_unique<UdpNetwork>(there, back, seed,
+                                                   endpoint("network", host, port),
+                                                   endpoint("slave", slave_host, slave_port));
+             });
+           }),
+           py::kw_only(), py::arg("there"), py::arg("back"), py::arg("seed"), py::arg("host"),
+           py::arg("port"), py::arg("slave"), py::arg("slave_port"))
       .def("cut", &UdpNetwork::cut, py::arg("on"), "Cut both ways, or mend them.");
   add_run(network);
 }

@@ -9357,6 +9357,7 @@ def _run_procedure(
     setup: Setup,
     law: ebac.laws.CoreLaw,
     every: typing.SupportsInt | typing.SupportsIndex,
+    progress: SweepProgress,
 ) -> tuple[dict[str, typing.Any], dict[str, typing.Any]]: ...
 def _run_procedures(
     procedures: collections.abc.Sequence[_Procedure],

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "ebac/core/check.hpp"
+#include "ebac/core/six_digits.hpp"
 #include "ebac/world/solid.hpp"
 
 namespace ebac::gastroscope {
@@ -14,7 +15,8 @@ namespace ebac::gastroscope {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kWave = 0.02;        // m, half of the length of a peristaltic wave
+constexpr double kWave = 0.02;  // m, half of the length of a peristaltic wave
+constexpr double kLeastRadius = 1e-3, kMostRadius = 0.2;  // m, of a line of the user's own
 constexpr double kLeastTurned = 0.2;  // of a length along the centre line, at the inside of a turn
 
 /// A part of the lumen that turns evenly in a plane: 0 towards the camera's right, pi/2 down.
@@ -107,6 +109,12 @@ Lumen::Lumen(const PatientParams& params, const std::vector<Vec>& points,
     throw std::invalid_argument("Lumen: " + std::to_string(points.size()) + " points and " +
                                 std::to_string(radii.size()) +
                                 " radii: needs two points or more, and a radius for each");
+  }
+  for (std::size_t i = 0; i < radii.size(); ++i) {
+    if (radii[i] >= kLeastRadius && radii[i] <= kMostRadius) continue;
+    throw std::invalid_argument("Lumen.radii[" + std::to_string(i) + "] = " + six_digits(radii[i]) +
+                                " m: must lie in [" + six_digits(kLeastRadius) + ", " +
+                                six_digits(kMostRadius) + "] m");
   }
   Frame frame =
       look_along({{0, 1, 0}, {0, 0, -1}, {-1, 0, 0}}, unit(points[1] - points[0], {-1, 0, 0}));

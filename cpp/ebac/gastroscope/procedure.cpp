@@ -210,9 +210,9 @@ const Findings& Navigation::findings() const { return parts_->watch.found; }
 const Slave& Navigation::slave() const { return parts_->slave; }
 
 Findings run_procedure(const Procedure& procedure, const Setup& setup, const AnyLaw& law, int every,
-                       std::vector<ProcedureRow>* rows) {
+                       SweepProgress& progress, std::vector<ProcedureRow>* rows) {
   Navigation run(procedure, setup, law);
-  for (std::size_t i = 0; run.step(); ++i) {
+  for (std::size_t i = 0; !progress.cancelled.load(std::memory_order_relaxed) && run.step(); ++i) {
     if (rows != nullptr && (run.ended() || i % static_cast<std::size_t>(every) == 0)) {
       rows->push_back(run.row());
     }
@@ -226,7 +226,7 @@ std::vector<Findings> run_procedures(const std::vector<const Procedure*>& proced
                                      SweepProgress& progress) {
   std::vector<Findings> found(procedures.size());
   for_each_run(procedures.size(), threads, progress, [&](std::size_t i, ContactRecorder&) {
-    found[i] = run_procedure(*procedures[i], *setups[i], *laws[i], 1, nullptr);
+    found[i] = run_procedure(*procedures[i], *setups[i], *laws[i], 1, progress, nullptr);
   });
   return found;
 }

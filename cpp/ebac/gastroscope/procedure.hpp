@@ -148,9 +148,9 @@ class Navigation {
 };
 
 /// Runs a procedure: the joystick's loop under the law, the line, slave and patient, the physician.
-/// A row is added to `rows`, where given, every `every` ticks and after the last one.
+/// A row is added to `rows`, where given, every `every` ticks and after the last one. Ends early where it is cancelled.
 Findings run_procedure(const Procedure& procedure, const Setup& setup, const AnyLaw& law, int every,
-                       std::vector<ProcedureRow>* rows);
+                       SweepProgress& progress, std::vector<ProcedureRow>* rows);
 
 /// Many of them, from `threads` threads, 0 for one per core.
 std::vector<Findings> run_procedures(const std::vector<const Procedure*>& procedures,

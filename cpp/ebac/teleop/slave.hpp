@@ -43,6 +43,30 @@ struct SlaveModel {
   }
 };
 
+/// Steps of a slave in a tick.
+inline constexpr int kSlaveSteps = 10;
+
+/// Returns the model. Throws std::invalid_argument where its motion is too quick for the steps of a tick of `dt` [s]:
+/// it would grow without a limit.
+inline const SlaveModel& checked_slave(const SlaveModel& model, double dt) {
+  check(model, "SlaveModel");
+  const double step = dt / kSlaveSteps;
+  const double damping = model.damping + model.contact_damping;
+  if (damping * step > model.mass) {
+    throw std::invalid_argument("SlaveModel.damping + contact_damping = " + shortest(damping) +
+                                " N s/m: for a mass of " + shortest(model.mass) +
+                                " kg must lie in [0, " + shortest(model.mass / step) +
+                                "] N s/m; more mass, or less damping");
+  }
+  if (model.contact_stiffness * step * step > model.mass) {
+    throw std::invalid_argument(
+        "SlaveModel.contact_stiffness = " + shortest(model.contact_stiffness) +
+        " N/m: for a mass of " + shortest(model.mass) + " kg must lie in [0, " +
+        shortest(model.mass / (step * step)) + "] N/m; more mass, or less stiffness");
+  }
+  return model;
+}
+
 /// The slave: where it wants to be by what comes from the master, and its position controller, a spring and a
 /// damper between that place and the axis. Its port is (force of that spring, speed of that place).
 class SlaveSide {
@@ -57,7 +81,7 @@ class SlaveSide {
   };
 
   SlaveSide(const SlaveModel& model, const Coupling& coupling, double dt)
-      : model_(checked(model, "SlaveModel")),
+      : model_(checked_slave(model, dt)),
         coupling_(checked_coupling(coupling, dt)),
         dt_(dt),
         session_(Role::kSlave, coupling, dt) {
@@ -103,7 +127,6 @@ class SlaveSide {
   double given() const EBAC_RT { return given_; }
 
  private:
-  static constexpr int kSubsteps = 10;
   static constexpr double kAligned = 5e-4;  // m
 
   Scheme scheme() const EBAC_RT { return static_cast<Scheme>(coupling_.scheme); }
@@ -198,8 +221,8 @@ class SlaveSide {
     given_ += given;
     port_.add(-given);
     state_.target += v * dt_;
-    const double h = dt_ / kSubsteps;
-    for (int i = 0; i < kSubsteps; ++i) {
+    const double h = dt_ / kSlaveSteps;
+    for (int i = 0; i < kSlaveSteps; ++i) {
       state_.met = model_.push(state_.x, state_.v);
       state_.v += h * (state_.force - state_.met - model_.damping * state_.v) / model_.mass;
       state_.x += h * state_.v;

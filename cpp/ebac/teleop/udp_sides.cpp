@@ -15,10 +15,11 @@ namespace ebac::teleop {
 
 namespace {
 
-constexpr std::int64_t kTick = 1'000'000;  // ns
-constexpr double kSecond = 1e-3;           // s a tick
-constexpr int kMostAtOnce = 256;           // datagrams in a tick
-constexpr double kSettled = 0.05;          // s, after the fade: command and motor lag
+constexpr std::int64_t kTick = 1'000'000;      // ns
+constexpr std::int64_t kMadeUp = 100'000'000;  // ns, so many late ticks are made up
+constexpr double kSecond = 1e-3;               // s a tick
+constexpr int kMostAtOnce = 256;               // datagrams in a tick
+constexpr double kSettled = 0.05;              // s, after the fade: command and motor lag
 
 std::int64_t now() noexcept {
   return std::chrono::nanoseconds(std::chrono::steady_clock::now().time_since_epoch()).count();
@@ -78,7 +79,9 @@ double Pace::wait() noexcept {
   next_ += kTick;
   const std::int64_t left = next_ - now();
   if (left > 0) std::this_thread::sleep_for(std::chrono::nanoseconds(left));
-  return std::max(0.0, static_cast<double>(now() - next_) * 1e-9);
+  const std::int64_t late = now() - next_;
+  if (late > kMadeUp) next_ += late;
+  return std::max(0.0, static_cast<double>(late) * 1e-9);
 }
 
 UdpMaster::UdpMaster(const Setup& setup, const AnyLaw& law, const Coupling& coupling,

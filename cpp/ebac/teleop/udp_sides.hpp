@@ -75,7 +75,8 @@ struct Report {
 /// Ticks of 1 ms by the system's clock. A late tick is made up for, so that simulated time goes as the clock does.
 class Pace {
  public:
-  /// Waits for the next tick; returns how late it is [s].
+  /// Waits for the next tick; returns how late it is [s]. After a longer stall, or a pause between two runs, the clock
+  /// begins anew: the ticks that were missed would come in one burst.
   double wait() noexcept;
 
  private:

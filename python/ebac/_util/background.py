@@ -4,7 +4,10 @@ from __future__ import annotations
 
 import _thread
 from collections.abc import Callable
-from typing import Generic, TypeVar
+from typing import TYPE_CHECKING, Generic, TypeVar
+
+if TYPE_CHECKING:
+    from ebac._core import SweepProgress
 
 T = TypeVar("T")
 
@@ -45,3 +48,34 @@ class Background(Generic[T]):
         if self._raised is not None:
             raise self._raised
         return self._result[0]
+
+
+def cancellable(
+    work: Callable[[SweepProgress], T], progress: Callable[[int], None] | None = None
+) -> T:
+    """Return what work of the core returns; Ctrl-C cancels it and waits until it has ended.
+
+    Parameters
+    ----------
+    work : function
+        Takes what it counts its runs in, and looks there whether it is cancelled.
+    progress : function, optional
+        Called with the runs done, some times a second and at the end.
+    """
+    from ebac._core import SweepProgress
+
+    state = SweepProgress()
+    running = None
+    try:
+        running = Background(lambda: work(state))
+        while not running.wait(0.1):
+            if progress is not None:
+                progress(state.done)
+    except BaseException:
+        state.cancel()
+        if running is not None:
+            running.wait()
+        raise
+    if progress is not None:
+        progress(state.done)
+    return running.result()

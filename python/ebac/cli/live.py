@@ -43,7 +43,9 @@ def live(
             help="Also simulate the clock: no tick is late, however busy the machine is.",
         ),
     ] = False,
-    law: Annotated[str | None, options.one_law(default="as configured", own=options.COMPILED)] = None,
+    law: Annotated[
+        str | None, options.one_law(default="as configured", own=options.COMPILED)
+    ] = None,
     observer: Annotated[bool | None, options.observer(default="on; with a file as in it")] = None,
     scenario: Annotated[
         Path | None,

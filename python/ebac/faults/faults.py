@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ebac import _core
-from ebac._util.background import Background
+from ebac._util.background import cancellable
 from ebac._util.cores import thread_count
 from ebac.trace import Trace
 
@@ -170,21 +170,10 @@ def run_campaign(
 def _run(
     cases: int, seed: int, threads: int, progress: Callable[[int, int], None] | None
 ) -> tuple[dict[str, NDArray[Any]], list[str]]:
-    state = _core.SweepProgress()
-    campaign = None
-    try:
-        campaign = Background(lambda: _core._fault_campaign(cases, seed, threads, state))
-        while not campaign.wait(0.05):
-            if progress is not None:
-                progress(state.done, cases)
-    except BaseException:
-        state.cancel()
-        if campaign is not None:
-            campaign.wait()
-        raise
-    if progress is not None:
-        progress(state.done, cases)
-    columns, verdicts = campaign.result()
+    columns, verdicts = cancellable(
+        lambda state: _core._fault_campaign(cases, seed, threads, state),
+        None if progress is None else lambda done: progress(done, cases),
+    )
     return columns, verdicts
 
 

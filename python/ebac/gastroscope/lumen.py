@@ -41,7 +41,7 @@ class Lumen:
     points : array_like, optional
         Centre line of your own, shape (n, 3) [m], 5 mm or more from point to point, from the teeth on.
     radii : sequence of float, optional
-        A radius for each point [m].
+        A radius for each point [m], [0.001, 0.2].
     wall : solid of `ebac.worlds`, optional
         The tissue as a solid, for instance `worlds.Cavity(worlds.Mesh("stomach.stl"))`; needs `points` and `radii` for
         the way through it. Peristalsis does not move it, breathing does.
@@ -49,7 +49,8 @@ class Lumen:
     Raises
     ------
     ValueError
-        For fewer than two points, another number of radii, points too close, or a wall without points.
+        For fewer than two points, another number of radii, a radius out of its range, points too close, or a wall or
+        radii without points.
     """
 
     def __init__(

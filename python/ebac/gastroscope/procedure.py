@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from ebac import _core
 from ebac._core import Device, Free, Hand, Master, Patient, Physician, Polyp, Scope, Step
+from ebac._util.background import cancellable
 from ebac._util.plural import plural
 from ebac.gastroscope.lumen import Lumen
 from ebac.laws import AnyLaw, CoreLaw, design, law_name
@@ -250,7 +251,9 @@ def gastroscopy(
     scenario = on_its_observer(given.scenario(), law)
     made: Any = core_law(law, scenario)
     made = made.replace(**changes) if changes else made
-    findings, rows = _core._run_procedure(given.core(), scenario.setup(), made, every)
+    findings, rows = cancellable(
+        lambda state: _core._run_procedure(given.core(), scenario.setup(), made, every, state)
+    )
     return Gastroscopy(
         procedure=given,
         law=law if isinstance(law, str) else law_name(made),

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ebac._core import Scope, _camera, _Slave
+from ebac._util.arguments import number
 from ebac.gastroscope.lumen import Lumen
 
 
@@ -130,17 +131,26 @@ class Slave:
         Parameters
         ----------
         insertion : float
-            Of the bending section's base [m].
+            Of the bending section's base [m], [-10, 10].
         bend_x, bend_y, rotation : float
-            To the right, down, and about the tube [rad].
+            To the right, down, and about the tube [rad], [-100, 100].
         dt : float
-            Length of the tick [s].
+            Length of the tick [s], [1e-5, 0.1].
 
         Returns
         -------
         push, torque_x, torque_y : float
             Resistance against insertion [N] and bends [N m].
+
+        Raises
+        ------
+        ValueError
+            For a number that is not finite or out of its range; nothing has moved then.
         """
+        _check("insertion", insertion, "m", -10, 10)
+        for name, angle in (("bend_x", bend_x), ("bend_y", bend_y), ("rotation", rotation)):
+            _check(name, angle, "rad", -100, 100)
+        _check("dt", dt, "s", 1e-5, 0.1)
         push, torque_x, torque_y = self._core.step((insertion, bend_x, bend_y), rotation, dt)
         return push, torque_x, torque_y
 
@@ -153,3 +163,10 @@ class Slave:
             str(name): np.array(value) if name in arrays else value for name, value in given.items()
         }
         return SlaveState(**values)
+
+
+def _check(name: str, value: float, unit: str, least: float, most: float) -> None:
+    if not least <= number(f"Slave.step: {name}", value) <= most:
+        raise ValueError(
+            f"Slave.step: {name} = {value:g} {unit}: must lie in [{least:g}, {most:g}] {unit}"
+        )

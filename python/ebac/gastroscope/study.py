@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from ebac import _core
 from ebac._core import Device, Hand, Linear, Master
 from ebac._util.arguments import number, several, whole
-from ebac._util.background import Background
+from ebac._util.background import cancellable
 from ebac._util.cores import thread_count
 from ebac.gastroscope.procedure import Procedure, core_law
 from ebac.laws import AnyLaw, law_name
@@ -218,17 +218,12 @@ def _run(
     threads: int,
     progress: Callable[[int, int], None] | None,
 ) -> dict[str, NDArray[np.float64]]:
-    state = _core.SweepProgress()
     procedures, setups, laws = zip(*todo, strict=True)
-    try:
-        work = Background(lambda: _core._run_procedures(procedures, setups, laws, threads, state))
-        while not work.wait(0.2):
-            if progress is not None:
-                progress(state.done, len(todo))
-    except BaseException:
-        state.cancel()
-        raise
-    return {str(name): np.asarray(values) for name, values in work.result().items()}
+    columns = cancellable(
+        lambda state: _core._run_procedures(procedures, setups, laws, threads, state),
+        None if progress is None else lambda done: progress(done, len(todo)),
+    )
+    return {str(name): np.asarray(values) for name, values in columns.items()}
 
 
 def _row(

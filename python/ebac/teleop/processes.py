@@ -7,6 +7,7 @@ from typing import Any
 
 from ebac import _core
 from ebac._core import Link, SlaveModel
+from ebac._util.arguments import number
 from ebac._util.reach import check_reach
 from ebac.laws import CoreLaw, PythonLaw
 from ebac.laws.making import compiled
@@ -33,7 +34,15 @@ class _Side:
         return int(self._core.port)
 
     def run(self, seconds: float) -> dict[str, Any]:
-        """Run for a time in this thread [s]; return what it has met so far, as `ebac teleop master --json`."""
+        """Run for a time in this thread [s]; return what it has met so far, as `ebac teleop master --json`.
+
+        Raises
+        ------
+        ValueError
+            For a time that is negative or not finite.
+        """
+        if not 0 <= number("seconds", seconds) < inf:
+            raise ValueError(f"seconds = {seconds:g} s: must be finite and at least 0 s")
         return dict(self._core.run(seconds))
 
     @property

@@ -15,7 +15,9 @@ from ebac.cli.teleop.options import LinkOptions
 
 def drives(
     over: LinkOptions,
-    law: Annotated[str | None, options.one_law(default="as configured", own=options.COMPILED)] = None,
+    law: Annotated[
+        str | None, options.one_law(default="as configured", own=options.COMPILED)
+    ] = None,
     seconds: Annotated[
         float, typer.Option(help="How long the joystick has power [s].", min=1, max=3600)
     ] = 30.0,

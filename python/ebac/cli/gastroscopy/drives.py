@@ -61,7 +61,9 @@ def master(
     host: Annotated[str, HOST] = "127.0.0.1",
     port: Annotated[int, PORT] = 0,
     on_simulated: Simulated = False,
-    law: Annotated[str | None, options.one_law(default="as configured", own=options.COMPILED)] = None,
+    law: Annotated[
+        str | None, options.one_law(default="as configured", own=options.COMPILED)
+    ] = None,
     consent_after: Annotated[
         float | None,
         typer.Option(

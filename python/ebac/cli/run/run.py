@@ -47,7 +47,9 @@ def run(
             help="With --virtual: model the time that frames take on the bus, or deliver each one at once.",
         ),
     ] = True,
-    law: Annotated[str | None, options.one_law(default="as configured", own=options.COMPILED)] = None,
+    law: Annotated[
+        str | None, options.one_law(default="as configured", own=options.COMPILED)
+    ] = None,
     rate: Annotated[
         float | None,
         options.option(text="Ticks per second [Hz]", default="as configured", panel=options.RUN),
