@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+import _thread
 import json
 import pickle
+import threading
+import time
 from dataclasses import replace
+from math import inf, nan
 from pathlib import Path
 from typing import Any
 
@@ -121,6 +125,46 @@ def test_tendons_have_slack_that_a_bend_crosses_first() -> None:
 
 class Named(Lumen):
     """A lumen of a user's own class."""
+
+
+@pytest.mark.parametrize(
+    ("command", "says"),
+    [
+        ({"insertion": nan}, r"Slave\.step: insertion = nan m: must lie in \[-10, 10\] m"),
+        ({"insertion": 0.1, "bend_x": inf}, r"bend_x = inf rad"),
+        ({"insertion": 0.1, "dt": nan}, r"dt = nan s: must lie in \[1e-05, 0\.1\] s"),
+        ({"insertion": 0.1, "dt": -1.0}, r"dt = -1 s"),
+    ],
+)
+def test_a_command_that_is_no_number_moves_nothing(command: dict[str, float], says: str) -> None:
+    """It became an index into the tube, and ended the interpreter."""
+    slave = Slave()
+    slave.step(0.1)
+    before = slave.state.inserted
+    with pytest.raises(ValueError, match=says):
+        slave.step(**command)
+    assert slave.state.inserted == before
+
+
+@pytest.mark.parametrize("radius", [nan, inf, -0.1, 0.0, 1e9])
+def test_a_radius_that_no_lumen_has_is_refused(radius: float) -> None:
+    line = [(0.0, 0.0, -0.02 * i) for i in range(4)]
+    with pytest.raises(
+        ValueError, match=r"Lumen\.radii\[2\] = .* m: must lie in \[0\.001, 0\.2\] m"
+    ):
+        Lumen(points=line, radii=[0.01, 0.01, radius, 0.01])
+    with pytest.raises(ValueError, match="0 points and 1 radii"):
+        Lumen(radii=[0.01])
+
+
+def test_ctrl_c_ends_a_gastroscopy() -> None:
+    timer = threading.Timer(0.2, _thread.interrupt_main)
+    begun = time.monotonic()
+    timer.start()
+    with pytest.raises(KeyboardInterrupt):
+        gastroscope.gastroscopy("ebac", Procedure(seconds=3600))
+    timer.join()
+    assert time.monotonic() - begun < 10
 
 
 def test_a_copy_of_a_lumen_is_what_the_lumen_was_made_from() -> None:
@@ -351,3 +395,14 @@ def test_no_spike_of_the_force_lies_between_two_rows() -> None:
     for column, most in (("section_force", "most_section"), ("tube_force", "most_tube")):
         assert done.rows[column].max() == done.findings[most]
     assert done.rows["t"][-1] == done.findings["seconds"]
+
+
+@pytest.mark.slow
+def test_the_tutorial_shows_what_the_command_prints() -> None:
+    page = Path(__file__).parents[2] / "docs" / "tutorials" / "gastroscopy.md"
+    shown = page.read_text(encoding="utf-8").partition("```text\n")[2].partition("```")[0]
+    lines = [" ".join(line.split()) for line in shown.strip().splitlines()]
+    assert len(lines) == 5
+    done = CliRunner().invoke(app, ["gastroscopy", "--no-files"])
+    printed = [" ".join(line.split()) for line in done.stdout.splitlines()]
+    assert [line for line in lines if line not in printed] == []

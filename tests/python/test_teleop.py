@@ -374,6 +374,18 @@ def test_without_consent_nothing_goes_on() -> None:
         ({"scheme": "wave"}, "no scheme is called 'wave', did you mean 'waves'"),
         ({"impedance": 0.0}, r"Coupling.impedance = 0 N s/m: must lie in \[0.1, 1000\] N s/m"),
         ({"consent_after": -1.0}, "consent_after = -1 s: must be at least 0 s"),
+        # Its place grew to a million kilometres.
+        (
+            {"slave": SlaveModel(mass=0.05, damping=1000)},
+            r"contact_damping = 1004 N s/m: for a mass of 0.05 kg must lie in \[0, 500\] N s/m",
+        ),
+        (
+            {
+                "scenario": Scenario(timing=Timing(dt=5e-3)),
+                "slave": SlaveModel(mass=0.01, damping=0, contact_stiffness=1e5),
+            },
+            r"contact_stiffness = 1e\+05 N/m: .* must lie in \[0, 40000\] N/m",
+        ),
     ],
 )
 def test_wrong_input(change: dict, message: str) -> None:
@@ -606,6 +618,21 @@ def test_a_slave_that_was_held_up_does_not_hit() -> None:
 @pytest.mark.skipif(sys.platform != "linux", reason="UDP of the library is Linux's")
 @pytest.mark.slow
 @pytest.mark.weekly
+@pytest.mark.real_time
+def test_a_pause_between_two_runs_is_not_made_up_for() -> None:
+    """It sent a thousand packets in 10 ms."""
+    slave = Slave(SlaveModel(), teleop.scheme("ebac"), host="127.0.0.1", port=0)
+    slave.run(0.01)
+    time.sleep(0.4)
+    begun = time.monotonic()
+    late = slave.run(0.1)["late_ticks"]
+    assert time.monotonic() - begun > 0.09
+    assert late < 50
+    for seconds in (float("nan"), float("inf"), -1.0):
+        with pytest.raises(ValueError, match="seconds = .* s: must be finite and at least 0 s"):
+            slave.run(seconds)
+
+
 def test_endurance_finds_what_is_beyond_a_limit(monkeypatch: pytest.MonkeyPatch) -> None:
     from ebac.cli.teleop.endurance import _row, _show
 
