@@ -11,8 +11,8 @@ from printed import Printed, Row, table
 import ebac
 from ebac._util.plural import plural
 
-#: Length of a run [s], and where the wall is [m].
-HOUR, SURFACE = 3600.0, 0.01
+#: Lengths of a run [s], and where the wall is [m].
+HOUR, MINUTES, SURFACE = 3600.0, 300.0, 0.01
 
 
 @dataclass(frozen=True)
@@ -45,25 +45,35 @@ class Swung:
         scale: float = 1.0,
         *,
         observer: Literal["learns-scale"] | bool = True,
+        true: ebac.Device | None = None,
+        seconds: float = HOUR,
     ) -> float:
-        """Return the most energy that the hand has drawn within the hour [J]."""
+        """Return the most energy that the hand has drawn within a time [s], in J.
+
+        Law and observer are made for the reference device with the sensor's `noise` [N] and what it shows of a force,
+        `scale`; on a `true` device other than that they do not know of the difference.
+        """
         stiffness, delay = self.wall
+        known = ebac.Device(sensor=ebac.ForceSensor(noise=noise, scale=scale))
         pushes = ebac.Sine(
             centre=SURFACE + self.mean / self.stiffness,
             amplitude=self.amplitude / self.stiffness,
             frequency=self.frequency,
         )
         scenario = ebac.Scenario(
-            device=ebac.Device(sensor=ebac.ForceSensor(noise=noise, scale=scale)),
+            device=known,
             hand=ebac.Hand(
                 mass=self.mass, damping=self.damping, stiffness=self.stiffness, path=[pushes]
             ),
             environment=ebac.Wall(stiffness=stiffness, position=SURFACE),
             timing=ebac.Timing(delay=delay),
-            seconds=HOUR,
+            seconds=seconds,
             observer=observer,
         )
-        return max(0.0, -float(ebac.simulate(scenario, "ebac").axis("true.energy").min()))
+        law = ebac.design("ebac", known, scenario.timing)
+        if true is not None:
+            scenario = scenario.replace(observer=scenario.designed_observer(), device=true)
+        return max(0.0, -float(ebac.simulate(scenario, law).axis("true.energy").min()))
 
 
 #: Those that searches found: at noise, without noise, and of hands up to 1.5 kg.
@@ -140,6 +150,52 @@ def _off(scale: float) -> str:
     if scale == 1:
         return "exact"
     return f"{100 * abs(scale - 1):.2g} % too {'much' if scale > 1 else 'little'}"
+
+
+#: Times that are not what law and observer are made for: what the table calls them, and the sensor or drive [s].
+WRONG_TIMES: tuple[tuple[str, dict[str, float], dict[str, float]], ...] = (
+    ("none", {}, {}),
+    ("force 0.05 ms late", {"delay": 5e-5}, {}),
+    ("force 0.1 ms late", {"delay": 1e-4}, {}),
+    ("force 0.2 ms late", {"delay": 2e-4}, {}),
+    ("sensor lag of 0.9 ms, declared 0.8 ms", {"lag": 9e-4}, {}),
+    ("sensor lag of 0.7 ms, declared 0.8 ms", {"lag": 7e-4}, {}),
+    ("current lag of 0.35 ms, declared 0.3 ms", {}, {"current_lag": 3.5e-4}),
+    ("current lag of 0.4 ms, declared 0.3 ms", {}, {"current_lag": 4e-4}),
+    ("current lag of 0.2 ms, declared 0.3 ms", {}, {"current_lag": 2e-4}),
+)
+#: The worst of some searched by a referee, and an ordinary one.
+LATE = (
+    Swung(3.64, 39.3, 272, 5.33, 4.9, 1.97),
+    Swung(1, 20, 300, 6.0, 4.8, 1.5),
+)
+
+
+def timed(printed: Printed) -> str:
+    """What hands draw where force or current come at other times than declared: two in an hour, 60 random in 5 min."""
+    hands = [([one], HOUR) for one in LATE] + [(_random(60), MINUTES)]
+    heads = [
+        f"{LATE[0].label}, 1 h",
+        f"{LATE[1].label}, 1 h",
+        "the worst of 60 random hands, 5 min",
+    ]
+    lines = []
+    for label, sensor, drive in WRONG_TIMES:
+        true = ebac.Device(sensor=ebac.ForceSensor(noise=0.03, **sensor), drive=ebac.Drive(**drive))
+
+        def measured(true: ebac.Device = true) -> list[Row]:
+            return [
+                {
+                    name: max(h.drawn(0.03, observer=o, true=true, seconds=s) for h in some)
+                    for name, o in OBSERVERS
+                }
+                for some, s in hands
+            ]
+
+        rows = printed.kept(f"late-{label}", measured)
+        drawn = ["; ".join(f"{1e3 * row[name]:.0f} mJ" for name, _ in OBSERVERS) for row in rows]
+        lines.append([label, *drawn])
+    return table(["error", *heads], lines)
 
 
 def energy(printed: Printed) -> str:

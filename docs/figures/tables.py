@@ -72,6 +72,7 @@ TABLES: dict[str, Callable[[Printed], str]] = {
     "held-limited": holding.limited,
     "swing-energy": swinging.energy,
     "swing-scale": swinging.scaled,
+    "swing-times": swinging.timed,
     "limits-worst": limits.worst_hands,
     "limits-milliseconds": limits.milliseconds,
     "limits-counts": limits.counts,

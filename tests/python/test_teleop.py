@@ -629,7 +629,7 @@ def test_a_pause_between_two_runs_is_not_made_up_for() -> None:
     assert time.monotonic() - begun > 0.09
     assert late < 50
     for seconds in (float("nan"), float("inf"), -1.0):
-        with pytest.raises(ValueError, match="seconds = .* s: must be finite and at least 0 s"):
+        with pytest.raises(ValueError, match=r"seconds = .* s: must be finite and at least 0 s"):
             slave.run(seconds)
 
 
