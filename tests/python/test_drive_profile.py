@@ -4,6 +4,7 @@ import re
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -195,6 +196,27 @@ def test_a_wrong_network_file_is_refused_with_its_line(
     with pytest.raises(drives.ProfileError) as caught:
         drives.load(file)
     assert str(caught.value).startswith(f"{file}, {message}"), caught.value
+
+
+def test_a_bit_rate_that_is_given_is_that_of_a_file_without_one(tmp_path: Path) -> None:
+    file = tmp_path / "net.toml"
+    file.write_text(NETWORK.replace("bitrate = 1000000\n", ""), encoding="utf-8")
+    assert drives.load(file).bitrate == 1_000_000
+    slow = drives.load(file, bitrate=np.int64(125_000), nodes=[1])  # type: ignore[arg-type]
+    assert slow.bitrate == 125_000
+    with pytest.raises(drives.ProfileError, match="of 125 kbit/s, worst case: refused over 90 %"):
+        slow.check_load()
+    for known in (file, "copley-accelnet"):
+        with pytest.raises(drives.ProfileError, match=r"^bitrate = 0 bit/s: must be one of 10000,"):
+            drives.load(known, bitrate=0, nodes=[1])
+    file.write_text(NETWORK, encoding="utf-8")
+    assert drives.load(file, bitrate=1_000_000).bitrate == 1_000_000
+    with pytest.raises(drives.ProfileError) as caught:
+        drives.load(file, bitrate=125_000)
+    assert str(caught.value) == (
+        f"{file}, line 2: bus.bitrate = 1000000 bit/s, but bitrate = 125000 bit/s (--bitrate) is given: correct the "
+        "one that is not the bit rate of the bus, or leave it out"
+    )
 
 
 def test_a_name_that_is_no_file_lists_what_there_is() -> None:

@@ -19,6 +19,9 @@ from ebac.drives.profile import Profile, builtin, read_profile, read_source
 from ebac.drives.sheets import check_sheet
 from ebac.drives.toml_positions import Source
 
+#: Bit rate of a bus where none is given [bit/s].
+_RATE = 1_000_000
+
 
 @plain_constructor
 @dataclass(frozen=True, kw_only=True)
@@ -62,7 +65,7 @@ class Network:
 
     name: str
     nodes: tuple[Node, ...]
-    bitrate: int = 1_000_000
+    bitrate: int = _RATE
     others: tuple[Traffic, ...] = ()
 
     def bus_load(self) -> BusLoad:
@@ -96,7 +99,7 @@ def load(name: str | Path, *, nodes: Sequence[int] = (), bitrate: int | None = N
     nodes : sequence of int
         Of a network file: only these. Of a profile: the nodes it is for.
     bitrate : int, optional
-        Of the bus [bit/s], where the file has none.
+        Of the bus [bit/s], one of `BITRATES`; default: that of the file, or 1 000 000 where it has none.
 
     Raises
     ------
@@ -108,9 +111,11 @@ def load(name: str | Path, *, nodes: Sequence[int] = (), bitrate: int | None = N
     for node in nodes:
         if not 1 <= node <= 127:
             raise ProfileError(f"node = {node}: must lie in [1, 127]")
+    if bitrate is not None and (wrong := _no_rate(bitrate)):
+        raise ProfileError(f"bitrate = {wrong}")
     called = f"the built-in {name}" if str(name) in builtin() else source.name
     if "node" in source.table:
-        network = _network(source, called)
+        network = _network(source, called, bitrate)
         return _only(network, nodes)
     _refuse_configuration(source)
     profile = read_profile(source)
@@ -120,7 +125,7 @@ def load(name: str | Path, *, nodes: Sequence[int] = (), bitrate: int | None = N
             "[[node]] tables name it (`ebac drive profile joystick` prints one); a command of one drive takes --node"
         )
     chosen = tuple(Node(id=node, profile=profile) for node in dict.fromkeys(nodes))
-    return Network(name=called, nodes=chosen, bitrate=bitrate or 1_000_000)
+    return Network(name=called, nodes=chosen, bitrate=int(bitrate or _RATE))
 
 
 def _refuse_configuration(source: Source) -> None:
@@ -161,7 +166,14 @@ def _only(network: Network, nodes: Sequence[int]) -> Network:
     )
 
 
-def _network(source: Source, called: str) -> Network:
+def _no_rate(given: object) -> str:
+    """Return what is wrong with a bit rate, with its value in front; "" for one of CiA 301."""
+    if not isinstance(given, bool) and given in BITRATES:
+        return ""
+    return f"{given!r} bit/s: must be one of {', '.join(str(rate) for rate in BITRATES)} bit/s"
+
+
+def _network(source: Source, called: str, asked: int | None) -> Network:
     known = ["about", "bus", "node"]
     for title in source.table:
         if title not in known:
@@ -172,11 +184,14 @@ def _network(source: Source, called: str) -> Network:
     for key in bus:
         if key not in ("bitrate", "other"):
             raise source.refuse(("bus", key), unknown(f"bus.{key}", key, ["bitrate", "other"]))
-    bitrate = bus.get("bitrate", 1_000_000)
-    if isinstance(bitrate, bool) or bitrate not in BITRATES:
-        rates = ", ".join(str(rate) for rate in BITRATES)
+    bitrate = bus.get("bitrate", asked or _RATE)
+    if wrong := _no_rate(bitrate):
+        raise source.refuse(("bus", "bitrate"), f"bus.bitrate = {wrong}")
+    if asked not in (None, bitrate):
         raise source.refuse(
-            ("bus", "bitrate"), f"bus.bitrate = {bitrate!r} bit/s: must be one of {rates} bit/s"
+            ("bus", "bitrate"),
+            f"bus.bitrate = {bitrate} bit/s, but bitrate = {asked} bit/s (--bitrate) is given: correct the one that is "
+            "not the bit rate of the bus, or leave it out",
         )
     others = bus.get("other", [])
     if not isinstance(others, list):
