@@ -181,6 +181,24 @@ def test_a_bus_on_which_somebody_else_commands_is_refused(
             other.join()
 
 
+def test_a_master_that_has_ended_is_forgotten_and_one_that_begins_is_heard(
+    bus: drives.DriveBus, open_bus: Open, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    drive, sync = bus.drive(1), frame(0x080, b"")
+    with open_bus() as other:
+        other.send(sync)
+        with pytest.raises(drives.BusError, match=r"commands on this bus: SYNC \(0x080, 1 times\)"):
+            drive.enable(mode=10)
+        monkeypatch.setattr("ebac.drives.bus.RECENT", 0.0)  # as if that had been long ago
+        with drive:
+            drive.enable(mode=10)
+        late = threading.Timer(0.02, other.send, [sync])
+        late.start()
+        with pytest.raises(drives.BusError, match="SYNC"):
+            bus.check_alone([1], seconds=0.5)
+        late.join()
+
+
 def test_every_diagnosis_tells_of_the_bus_itself() -> None:
     monitor = BusMonitor()
     assert monitor.describe(0) == "nothing at all"

@@ -24,6 +24,8 @@ if TYPE_CHECKING:
 
 #: How long an SDO answer may take [s]. Drives answer within a few ms; a busy laptop does not.
 TIMEOUT = 0.3
+#: How long a master counts as being there after its last frame [s]: the slowest SYNC of a profile comes every second.
+RECENT = 1.1
 #: SDO request for the device type (0x1000), which every node has.
 READ_DEVICE_TYPE = bytes([0x40, 0x00, 0x10, 0, 0, 0, 0, 0])
 #: canopen logs each aborted transfer, which is an exception here: shown only to who sets up logging.
@@ -50,7 +52,6 @@ class DriveBus:
 
         logging.getLogger("canopen").addHandler(_UNHEARD)
         self.monitor = BusMonitor()
-        self._opened = time.monotonic()
         self.network = canopen.Network(bus)
         self.network.NOTIFIER_CYCLE = 0.01  # s; closing waits for it
         self._drives: dict[int, Drive] = {}
@@ -141,15 +142,16 @@ class DriveBus:
         nodes : sequence of int
             Ids of the drives.
         seconds : float
-            How long to listen after the bus was opened, at least [s].
+            How long to listen [s]. What came in the second before counts as well.
 
         Raises
         ------
         BusError
             When another node sends SYNC, or torques to one of them.
         """
-        time.sleep(max(0.0, self._opened + seconds - time.monotonic()))
-        if found := self.monitor.commanding(nodes):
+        start = time.monotonic() - RECENT
+        time.sleep(seconds)
+        if found := self.monitor.commanding(nodes, start):
             raise BusError(
                 f"somebody else commands on this bus: {', '.join(found)}. End the other loop or master first; two of "
                 "them would take turns at the same motors"

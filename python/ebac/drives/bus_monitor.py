@@ -126,10 +126,10 @@ class BusMonitor:
         services = (0x580, 0x700) if asked else (0x080, 0x180, 0x280, 0x380, 0x480, 0x580, 0x700)
         return sorted({cob & 0x7F for cob in cobs if cob & 0x780 in services and cob & 0x7F})
 
-    def commanding(self, nodes: Sequence[int]) -> list[str]:
-        """Return in words who else sends what only the master of these nodes may send."""
+    def commanding(self, nodes: Sequence[int], start: float) -> list[str]:
+        """Return in words who else sent what only the master of these nodes may send, since `start` [s, monotonic]."""
         ids = {0x080: "SYNC", **{0x200 + node: f"torques to node {node}" for node in nodes}}
-        count = self.since(0.0)
+        count = self.since(start)
         return [
             f"{what} (0x{cob:03X}, {count[cob]} times)" for cob, what in ids.items() if count[cob]
         ]
