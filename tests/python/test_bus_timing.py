@@ -3,6 +3,7 @@
 import dataclasses
 from typing import Any
 
+import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -94,6 +95,7 @@ def test_destroyed_frames_cost_time_and_a_broken_node_goes_off_the_bus() -> None
 def test_the_same_seed_gives_the_same() -> None:
     first, again = (drives.bus_timing(network(), ticks=50, error_rate=0.1, seed=7) for _ in "ab")
     assert first == again
+    assert drives.bus_timing(network(), ticks=50, error_rate=0.1, seed=np.int64(7)) == first  # type: ignore[arg-type]
 
 
 @pytest.mark.parametrize(

@@ -15,6 +15,7 @@ from typing import Any
 
 import can
 import canopen
+import numpy as np
 import pytest
 from can_logger import logged
 from hypothesis import given
@@ -319,12 +320,18 @@ def test_the_state(channel: str) -> None:
             end.fileno()
 
 
+def test_a_queue_may_be_as_long_as_a_number_of_numpy(channel: str) -> None:
+    with EbacBus(channel, rx_queue_size=np.int64(8)) as end:  # type: ignore[arg-type]
+        assert end.recv(0) is None
+
+
 @pytest.mark.parametrize(
     ("options", "tells"),
     [
         ({"rx_queue_size": 0}, r"rx_queue_size = 0: must be a whole number in \[1, 1048576\]"),
         ({"rx_queue_size": -1}, "rx_queue_size = -1"),
         ({"rx_queue_size": 2**21}, "rx_queue_size = 2097152"),
+        ({"rx_queue_size": True}, "rx_queue_size = True"),
         ({"rx_queue_size": "many"}, "rx_queue_size = many"),
         ({"fd": True}, "leave fd out"),
         ({"protocol": can.CanProtocol.CAN_FD}, "leave fd out"),

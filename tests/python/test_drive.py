@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import Any
 
 import can
+import numpy as np
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
@@ -73,6 +74,34 @@ def test_a_number_written_is_the_number_read(drive: drives.Drive, value: int) ->
     assert drive.read("target_torque") == value
     assert drive.read(0x6071) == value
     assert drive.read((0x6071, 0)) == value
+
+
+def test_numbers_of_numpy_are_numbers(bus: drives.DriveBus) -> None:
+    drive: Any = bus.drive(np.int64(1))  # type: ignore[arg-type]
+    assert drive is bus.drive(1)
+    drive.write("target_torque", np.int16(-3))
+    for what in (np.uint16(0x6071), (np.int64(0x6071), np.uint8(0))):
+        assert drive.number(what) == -3
+    assert [one.id for one in drives.load("joystick", nodes=np.array([2])).nodes] == [2]  # type: ignore[arg-type]
+    with drive:
+        drive.enable(mode=np.int64(10))
+
+
+@pytest.mark.parametrize(
+    ("act", "message"),
+    [
+        (lambda d: d.write("target_torque", 0.0), "target_torque (0x6071) = 0.0: must be a whole number"),
+        (lambda d: d.write("target_torque", True), "target_torque (0x6071) = True: must be a whole number"),
+        (lambda d: d.enable(mode=10.0), "mode = 10.0: must be a whole number"),
+        (lambda d: d.number(24641.0), "index of an object = 24641.0: must be a whole number"),
+        (lambda d: d.number((0x6041, 0, 0)), "object (24641, 0, 0): must be a name, an index, or (index, sub-index)"),
+    ],
+)  # fmt: skip
+def test_what_is_no_whole_number_is_refused_in_a_sentence(
+    drive: drives.Drive, act: Callable[[drives.Drive], None], message: str
+) -> None:
+    with pytest.raises(TypeError, match=re.escape(message)):
+        act(drive)
 
 
 @pytest.mark.parametrize(

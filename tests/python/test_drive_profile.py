@@ -161,6 +161,17 @@ def test_whatever_stands_in_a_file_is_taken_or_refused_by_its_place(
         assert str(error).startswith(str(file)) or "profile" in str(place)  # noqa: PT017
 
 
+def test_values_of_numpy_become_plain_ones() -> None:
+    known = drives.load("copley-accelnet", nodes=[1]).nodes[0].profile
+    changed = known.replace(
+        motor__torque_constant=np.float32(0.0625), heartbeat__master=np.int64(100)
+    )
+    assert changed == known.replace(motor__torque_constant=0.0625, heartbeat__master=100)
+    assert {type(value) for value in changed.values.values()} <= {int, float, str, bool}
+    with pytest.raises(drives.ProfileError, match="torque_constant = true: must be a number"):
+        known.replace(motor__torque_constant=True)
+
+
 def test_what_is_no_toml_says_so() -> None:
     assert refused("a = = 1").startswith("my.toml: not a TOML document: ")
 
@@ -206,9 +217,9 @@ def test_a_bit_rate_that_is_given_is_that_of_a_file_without_one(tmp_path: Path) 
     assert slow.bitrate == 125_000
     with pytest.raises(drives.ProfileError, match="of 125 kbit/s, worst case: refused over 90 %"):
         slow.check_load()
-    for known in (file, "copley-accelnet"):
+    for name in (file, "copley-accelnet"):
         with pytest.raises(drives.ProfileError, match=r"^bitrate = 0 bit/s: must be one of 10000,"):
-            drives.load(known, bitrate=0, nodes=[1])
+            drives.load(name, bitrate=0, nodes=[1])
     file.write_text(NETWORK, encoding="utf-8")
     assert drives.load(file, bitrate=1_000_000).bitrate == 1_000_000
     with pytest.raises(drives.ProfileError) as caught:

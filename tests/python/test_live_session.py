@@ -124,6 +124,15 @@ def test_what_cannot_be_is_refused_by_name(change: dict[str, object], message: s
         Choices().with_changes(change)
 
 
+def test_numbers_of_numpy_can_be_chosen() -> None:
+    given = {"stiffness": np.float32(5e3), "damping": np.int64(2), "delay": np.int64(2)}
+    chosen = Choices().with_changes(given)
+    assert chosen == Choices(stiffness=5e3, damping=2, delay=2)
+    assert {type(value) for value in chosen.row().values()} <= {int, float, str, bool}
+    with pytest.raises(ValueError, match="must be a whole number of samples"):
+        Choices().with_changes({"delay": np.float64(2)})
+
+
 def test_every_name_can_be_chosen() -> None:
     for name, values in options().items():
         for value in values:

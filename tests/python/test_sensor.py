@@ -101,6 +101,29 @@ def test_a_configuration_says_what_is_wrong(
         SensorConfig(**wrong)  # type: ignore[arg-type]
 
 
+def test_a_configuration_takes_numbers_of_numpy() -> None:
+    bias = (np.float32(1.5), *[np.int64(0)] * 5)
+    whole = {"port": np.int64(5), "http_port": np.uint16(0), "sign": np.int8(-1)}
+    other = {
+        "counts_per_force": np.float32(1e5),
+        "force_range": np.int64(100),
+        "retry": np.float64(0.5),
+    }
+    made = SensorConfig(**whole, **other, bias=bias)  # type: ignore[arg-type]
+    assert made == SensorConfig(
+        port=5,
+        http_port=0,
+        sign=-1,
+        counts_per_force=1e5,
+        force_range=100,
+        retry=0.5,
+        bias=(1.5, 0, 0, 0, 0, 0),
+    )
+    assert {type(value) for value in (*vars(made).values(), *made.bias)} <= {int, float, str, tuple}
+    with pytest.raises(TypeError, match=r"sensor\.port = 5\.0: must be a whole number"):
+        SensorConfig(port=np.float32(5))  # type: ignore[arg-type]
+
+
 def test_a_configuration_is_read_from_its_table() -> None:
     bias = (1.0, 0.0, 0.0, 0.0, 0.0, 0.5)
     table = {"host": "10.0.0.7", "rotation": [list(row) for row in TURNED], "bias": list(bias)}

@@ -728,6 +728,8 @@ def test_a_study_and_an_endurance_run_of_the_wrong_type_are_refused_by_name() ->
             run(link=3)  # type: ignore[operator]
     with pytest.raises(TypeError, match="seconds = 'x': must be a number"):
         teleop.endurance(seconds="x")  # type: ignore[arg-type]
+    with pytest.raises(ValueError, match=r"seconds = 4 s: must lie in \[5, 86400\] s"):
+        teleop.endurance(np.int64(4))  # type: ignore[arg-type]
 
 
 def test_seed_0_is_a_seed_of_its_own() -> None:

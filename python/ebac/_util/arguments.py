@@ -6,7 +6,7 @@ import difflib
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from errno import EISDIR, ENOENT
 from functools import wraps
-from numbers import Real
+from numbers import Integral, Real
 from operator import index
 from os import PathLike
 from pathlib import Path
@@ -94,10 +94,19 @@ def whole(name: str, value: Any) -> int:
     TypeError
         For anything else; the message names it.
     """
+    if isinstance(value, bool):
+        raise TypeError(f"{name} = {value!r}: must be a whole number")
     try:
         return index(value)
     except TypeError:
         raise TypeError(f"{name} = {value!r}: must be a whole number") from None
+
+
+def plain(value: Any) -> Any:
+    """Return a number of any kind, such as one of NumPy, as an int or a float; everything else as it is."""
+    if isinstance(value, (bool, int)) or not isinstance(value, Real):
+        return value
+    return int(value) if isinstance(value, Integral) else float(value)
 
 
 def number(name: str, value: Any) -> float:

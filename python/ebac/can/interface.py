@@ -26,6 +26,7 @@ import can
 from can.typechecking import AutoDetectedConfig
 
 from ebac._core import BusCounts, BusState, CanFrame
+from ebac._util.arguments import plain
 from ebac.can.channels import CHANNELS, LOCK, NODES, join, leave
 
 __all__ = ["DEFAULT_CHANNEL", "DEFAULT_QUEUE", "MOST_FRAMES", "NODES", "EbacBus"]
@@ -198,8 +199,9 @@ class EbacBus(can.BusABC):
         return [{"interface": "ebac", "channel": name} for name in names]
 
 
-def _checked_queue(frames: object) -> int:
-    if not isinstance(frames, int) or not 1 <= frames <= MOST_FRAMES:
+def _checked_queue(given: object) -> int:
+    frames = plain(given)
+    if isinstance(frames, bool) or not isinstance(frames, int) or not 1 <= frames <= MOST_FRAMES:
         raise ValueError(
             f"rx_queue_size = {frames}: must be a whole number in [1, {MOST_FRAMES}] frames"
         )

@@ -128,7 +128,8 @@ class DriveBus:
         """
         from ebac.drives.drive import Drive
 
-        if not 1 <= whole("node", node) <= 127:
+        node = whole("node", node)
+        if not 1 <= node <= 127:
             raise ValueError(f"node = {node}: must lie in [1, 127]")
         if node not in self._drives:
             self._drives[node] = Drive(self, node, eds=eds, timeout=timeout)

@@ -122,6 +122,8 @@ class BusNode:
 
         Raises
         ------
+        TypeError
+            For a value that is no whole number.
         ValueError
             When the value does not fit the object.
         NoAnswer, Refused, WrongAnswer, BusError

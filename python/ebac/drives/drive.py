@@ -7,6 +7,7 @@ from collections.abc import Callable
 from types import TracebackType
 from typing import Self
 
+from ebac._util.arguments import whole
 from ebac._util.exception_notes import noted_on
 from ebac._util.wrong_calls import plain_constructor
 from ebac.drives import faults
@@ -223,11 +224,14 @@ class Drive(BusNode):
 
         Raises
         ------
+        TypeError
+            For a mode that is no whole number.
         ValueError
             For a mode the drive does not offer (0x6502).
         WrongAnswer
             When it does not act within `timeout` [s].
         """
+        mode = whole("mode", mode)
         offered = self.look("supported_modes")
         if not 1 <= mode <= 32 or (isinstance(offered, int) and not offered >> (mode - 1) & 1):
             modes = [n for n in range(1, 33) if isinstance(offered, int) and offered >> (n - 1) & 1]

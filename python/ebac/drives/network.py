@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from ebac._util.arguments import require_path, unknown
+from ebac._util.arguments import require_path, unknown, whole
 from ebac._util.file_kinds import SCENARIO, kind_of
 from ebac._util.wrong_calls import plain_constructor
 from ebac.drives.data_sheet import Sheet
@@ -108,6 +108,7 @@ def load(name: str | Path, *, nodes: Sequence[int] = (), bitrate: int | None = N
     """
     require_path(name, "ebac.drives.load", "the path of a file or the name of a profile")
     source = read_source(name)
+    nodes = [whole("node", node) for node in nodes]
     for node in nodes:
         if not 1 <= node <= 127:
             raise ProfileError(f"node = {node}: must lie in [1, 127]")

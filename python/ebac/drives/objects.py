@@ -9,8 +9,9 @@ import struct
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cache
+from typing import Any
 
-from ebac._util.arguments import UnknownNameError, did_you_mean
+from ebac._util.arguments import UnknownNameError, did_you_mean, whole
 from ebac._util.wrong_calls import plain_constructor
 
 #: Type of CiA 301: its struct code. The length is that of the type.
@@ -86,11 +87,14 @@ class Object:
 
         Raises
         ------
+        TypeError
+            For what is no whole number.
         ValueError
             When it does not fit; the message contains the range.
         """
         if self.kind not in NUMBERS:
             raise ValueError(f"{self}: is text and cannot be written as a number")
+        value = whole(str(self), value)
         length = size or struct.calcsize("<" + NUMBERS[self.kind])
         signed = self.kind.startswith("i")
         low = -(1 << 8 * length - 1) if signed else 0
@@ -232,6 +236,8 @@ def find(what: str | int | tuple[int, int] | Object) -> Object:
     ------
     KeyError
         For an unknown name; the message suggests the nearest.
+    TypeError
+        For what is none of these.
     """
     if isinstance(what, Object):
         return what
@@ -242,8 +248,10 @@ def find(what: str | int | tuple[int, int] | Object) -> Object:
                 "and any object goes by its index, 0x6041 or (0x2383, 12)"
             )
         return known()[what]
-    key = (what, 0) if isinstance(what, int) else what
-    index, sub = key
+    given: tuple[Any, ...] = what if isinstance(what, tuple) else (what, 0)
+    if len(given) != 2:
+        raise TypeError(f"object {given}: must be a name, an index, or (index, sub-index)")
+    key = index, sub = whole("index of an object", given[0]), whole("sub-index", given[1])
     if not (0 <= index <= 0xFFFF and 0 <= sub <= 0xFF):
         raise UnknownNameError(
             f"object {key}: index must lie in [0, 0xFFFF], sub-index in [0, 0xFF]"

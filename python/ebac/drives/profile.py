@@ -11,7 +11,7 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import Any, Self
 
-from ebac._util.arguments import unknown
+from ebac._util.arguments import plain, unknown
 from ebac._util.text_file import read_text
 from ebac._util.wrong_calls import plain_constructor
 from ebac.drives.errors import ProfileError
@@ -69,13 +69,14 @@ class Profile:
     def __post_init__(self) -> None:
         """Check what must hold between keys, where no file is to blame."""
         defaults = {key.name: key.default for key in KEYS if key.default is not None}
-        for name, value in self.values.items():
+        given = {name: plain(value) for name, value in self.values.items()}
+        for name, value in given.items():
             key = BY_NAME.get(name)
             if key is None:
                 raise ProfileError(f"{self.name}: {unknown(name, name, list(BY_NAME))}")
             if (wrong := key.check(value)) is not None:
                 raise ProfileError(f"{self.name}: {wrong}")
-        values = MappingProxyType({**defaults, **self.values})
+        values = MappingProxyType({**defaults, **given})
         object.__setattr__(self, "values", values)
         for name, wrong in _broken(values, self.without):
             raise ProfileError(f"{self.name}: {wrong} (key {name})")

@@ -7,6 +7,7 @@ from collections import defaultdict, deque
 from dataclasses import dataclass
 
 from ebac._core import SimulatedWire, TimedBus
+from ebac._util.arguments import whole
 from ebac._util.plural import plural
 from ebac._util.wrong_calls import plain_constructor
 from ebac.drives.network import Network
@@ -124,6 +125,7 @@ def bus_timing(
     ):  # fmt: skip
         if not low <= value <= high:
             raise ValueError(f"{name} = {value:g}: must lie in [{low:g}, {high:g}]")
+    seed = whole("seed", seed)
     ids = [node.id for node in network.nodes]
     if broken is not None and broken not in ids:
         raise ValueError(

@@ -8,7 +8,7 @@ from typing import Any, Literal, Self
 
 from ebac import presets
 from ebac._core import Disc, Free, Limits, Wall
-from ebac._util.arguments import unknown_name
+from ebac._util.arguments import plain, unknown_name
 from ebac.hardware import Configuration
 from ebac.laws import LAWS
 from ebac.scenario import Environment, Scenario
@@ -46,6 +46,7 @@ class Choices:
         ValueError
             For a type or a number that cannot be.
         """
+        changes = {name: plain(value) for name, value in changes.items()}
         for name, value in changes.items():
             _check(name, value, options(laws))
         return replace(self, **changes)

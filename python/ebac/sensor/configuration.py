@@ -10,7 +10,7 @@ from math import isfinite
 from typing import Any, Self, TypeAlias
 
 from ebac import _core
-from ebac._util.arguments import unknown
+from ebac._util.arguments import plain, unknown
 from ebac._util.wrong_calls import plain_constructor
 from ebac.sensor.status import BITS
 
@@ -84,6 +84,8 @@ class SensorConfig:
 
     def __post_init__(self) -> None:
         """Check types and ranges; the core checks what it owns."""
+        for field in dataclasses.fields(self):
+            object.__setattr__(self, field.name, plain(getattr(self, field.name)))
         host: Any = self.host
         if not isinstance(host, str) or not host.strip():
             raise TypeError(
@@ -206,7 +208,7 @@ def numbers(name: str, given: Any, count: int, *, inner: int = 0) -> tuple[Any, 
         raise TypeError(f"sensor.{name} = {given!r}: must be {shape}")
     if inner:
         return tuple(numbers(name, row, inner) for row in given)
-    for value in given:
+    for value in map(plain, given):
         if isinstance(value, bool) or not isinstance(value, (int, float)):
             raise TypeError(f"sensor.{name} has {value!r}: must be {shape}")
         if not isfinite(value):

@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import Any
 
 from ebac._core import Limits, Link
+from ebac._util.arguments import number
 from ebac._util.child_processes import Child, link_options, started, text
 from ebac.scenario import Scenario
 from ebac.teleop.schemes import Scheme
@@ -100,9 +101,7 @@ def endurance(
     TypeError
         For seconds that are no number, a link that is none.
     """
-    given: object = seconds
-    if isinstance(given, bool) or not isinstance(given, int | float):
-        raise TypeError(f"seconds = {seconds!r}: must be a number [s]")
+    seconds = number("seconds", seconds)
     if not 5 <= seconds <= 86400:
         raise ValueError(f"seconds = {seconds:g} s: must lie in [5, 86400] s")
     chosen = scheme_of(scheme)
