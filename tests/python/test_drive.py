@@ -147,6 +147,24 @@ def test_what_does_not_fit_is_refused_before_it_is_sent(drive: drives.Drive) -> 
         drive.write("target_torqe", 1)
 
 
+def test_timeout_and_data_sheet_of_a_drive_may_be_given_later(
+    bus: drives.DriveBus, tmp_path: Path
+) -> None:
+    drive = bus.drive(1)
+    assert drive.sdo.timeout == 0.3
+    sheet = tmp_path / "drive.eds"
+    sheet.write_text(_core.SimulatedDrive(node=1).eds(), encoding="ascii")
+    assert bus.drive(1, eds=sheet, timeout=5) is drive
+    for wrong, message in (
+        ({"timeout": 1e9}, r"timeout = 1000000000.0 s: must lie in \[0.001, 60\] s"),
+        ({"eds": tmp_path / "nix.eds", "timeout": 1.0}, r"nix\.eds: no such file"),
+    ):
+        with pytest.raises(ValueError, match=message):
+            bus.drive(1, **wrong)  # type: ignore[arg-type]
+    assert bus.drive(1).sdo.timeout == 5
+    assert drive.read("Device type") == drive.read("device_type")
+
+
 @pytest.mark.parametrize("node", [0, 128, -1])
 def test_a_node_id_out_of_range_is_refused(bus: drives.DriveBus, node: int) -> None:
     with pytest.raises(ValueError, match=rf"node = {node}: must lie in \[1, 127\]"):

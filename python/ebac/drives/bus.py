@@ -14,12 +14,12 @@ from typing import TYPE_CHECKING, Any, Self
 from ebac._util.arguments import whole
 from ebac._util.wrong_calls import plain_constructor
 from ebac.drives.bus_monitor import BusMonitor
+from ebac.drives.data_sheet import Sheet
 from ebac.drives.errors import BusError, NoCan
 
 if TYPE_CHECKING:
     import can
 
-    from ebac.drives.data_sheet import Sheet
     from ebac.drives.drive import Drive
 
 #: How long an SDO answer may take [s]. Drives answer within a few ms; a busy laptop does not.
@@ -106,34 +106,43 @@ class DriveBus:
             self.network.disconnect()
 
     def drive(
-        self, node: int, *, eds: str | Path | Sheet | None = None, timeout: float = TIMEOUT
+        self, node: int, *, eds: str | Path | Sheet | None = None, timeout: float | None = None
     ) -> Drive:
         """Return the drive of that node; the same object every time, so that its lock is one.
+
+        Data sheet and timeout of a later call act on that object, for all who have it.
 
         Parameters
         ----------
         node : int
             Node id, 1 to 127.
         eds : str, Path or Sheet, optional
-            Electronic data sheet, for names this package does not know.
-        timeout : float
-            How long an SDO answer may take [s], 0.001 to 60.
+            Electronic data sheet, for names this package does not know; default: the one it has, if any.
+        timeout : float, optional
+            How long an SDO answer may take [s], 0.001 to 60; default: as it is, 0.3 at first.
 
         Raises
         ------
         TypeError
             For a node id that is no whole number.
         ValueError
-            For one out of range.
+            For a node id or a timeout out of range, and for a data sheet that is none.
         """
         from ebac.drives.drive import Drive
+        from ebac.drives.eds import read_eds
 
         node = whole("node", node)
         if not 1 <= node <= 127:
             raise ValueError(f"node = {node}: must lie in [1, 127]")
-        if node not in self._drives:
-            self._drives[node] = Drive(self, node, eds=eds, timeout=timeout)
-        return self._drives[node]
+        sheet = eds if eds is None or isinstance(eds, Sheet) else read_eds(eds)
+        drive = self._drives.get(node)
+        if drive is None:
+            first = TIMEOUT if timeout is None else timeout
+            drive = self._drives[node] = Drive(self, node, eds=sheet, timeout=first)
+        elif timeout is not None:
+            drive.sdo.timeout = timeout
+        drive.sheet = sheet or drive.sheet
+        return drive
 
     def check_alone(self, nodes: Sequence[int], *, seconds: float = 0.05) -> None:
         """Listen, and refuse a bus on which somebody else commands these nodes.
