@@ -160,6 +160,32 @@ def test_a_filter_does_not_prolong_the_wait(channel: str) -> None:
         assert 0.1 <= time.monotonic() - start < 5
 
 
+def test_a_bus_full_of_frames_for_others_does_not_prolong_the_wait(channel: str) -> None:
+    filters = [{"can_id": 1, "can_mask": 0x7FF}]
+    with bus(channel) as mine, bus(channel, can_filters=filters) as other:
+        start, over = time.monotonic(), threading.Event()
+
+        def flood() -> None:
+            while not over.is_set() and time.monotonic() - start < 0.8:
+                mine.send(message(5))
+
+        sender = threading.Thread(target=flood)
+        sender.start()
+        got = other.recv(0.05)
+        took = time.monotonic() - start
+        over.set()
+        sender.join()
+        assert got is None
+        assert 0.05 <= took < 0.5
+        drain(other)
+        for identifier in (5, 5, 5, 1, 5):
+            mine.send(message(identifier))
+        got = other.recv(0)
+        assert got is not None
+        assert got.arbitration_id == 1
+        assert other.recv(0) is None
+
+
 @pytest.mark.parametrize("timeout", [0.0, 0.05])
 def test_time_outs(channel: str, timeout: float) -> None:
     with bus(channel) as end:

@@ -82,7 +82,8 @@ class EbacBus(can.BusABC):
     ) -> None:
         _refuse_fd(kwargs)
         name = str(channel)
-        self._end = join(name, _checked_queue(rx_queue_size), receive_own_messages)
+        self._longest = _checked_queue(rx_queue_size)
+        self._end = join(name, self._longest, receive_own_messages)
         self.channel = name
         self.channel_info = f"ebac channel '{name}'"
         self._tasks: WeakSet[Any] = WeakSet()
@@ -136,15 +137,24 @@ class EbacBus(can.BusABC):
             time.sleep(1e-4)
 
     def _recv_internal(self, timeout: float | None) -> tuple[can.Message | None, bool]:
-        """Filter here, so that `recv(0)` finds what stands behind a message for somebody else."""
+        """Filter here, so that `recv(0)` finds what stands behind a message for somebody else.
+
+        Once the time is over, what waits is looked through, and nothing that comes later.
+        """
         start = time.monotonic()
-        left = timeout
+        left, looked = timeout, 0
+        over: int | None = None  # when the time was over [ns since 1970]
         while (frame := self._end.receive(left)) is not None:
             message = self._message(frame)
             if self._matches_filters(message):
                 return message, True
             if timeout is not None:
-                left = timeout - (time.monotonic() - start)
+                left = max(0.0, timeout - (time.monotonic() - start))
+            if left == 0:
+                over = time.time_ns() if over is None else over
+                looked += 1  # a clock that was set back must not prolong it
+                if frame.stamp > over or looked > self._longest:
+                    break
         if self._end.state == BusState.CLOSED:
             raise can.CanOperationError(_closed(self.channel_info))
         return None, True
