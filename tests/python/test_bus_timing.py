@@ -68,6 +68,14 @@ def test_a_slow_bus_is_late_and_a_full_one_never_answers() -> None:
     assert full.load > 0.99
 
 
+def test_traffic_that_never_comes_takes_no_time() -> None:
+    never = drives.Traffic(name="others", size=8, rate=0)
+    alone, beside = (
+        drives.bus_timing(network(others=others), ticks=20) for others in ((), (never,))
+    )
+    assert beside == alone
+
+
 def test_a_lower_identifier_goes_first() -> None:
     """Foreign traffic of low priority holds an exchange up by the frame under way, wherever the bus becomes free."""
     busy = drives.Traffic(name="others", size=8, rate=3500.0)

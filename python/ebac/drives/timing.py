@@ -5,6 +5,7 @@ from __future__ import annotations
 import random
 from collections import defaultdict, deque
 from dataclasses import dataclass
+from math import inf
 
 from ebac._core import SimulatedWire, TimedBus
 from ebac._util.arguments import whole
@@ -164,7 +165,7 @@ class _Exchanges:
         self.came: dict[int, list[int]] = {}
 
     def run(self, ticks: int) -> BusTiming:
-        next_other = [0.0] * len(self.network.others)
+        next_other = [0.0 if other.rate else inf for other in self.network.others]
         next_beat = [0.0] * len(self.network.nodes)
         for tick in range(ticks):
             self._fill(tick, tick * self.dt, next_other, next_beat)
