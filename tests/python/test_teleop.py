@@ -1,13 +1,16 @@
 """Teleoperation: schemes, network, protocol, lost links, three processes."""
 
+import contextlib
 import itertools
 import json
 import re
 import signal
 import subprocess
 import sys
+import tempfile
 import threading
 import time
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -17,7 +20,7 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from ebac import Hand, MinimumJerk, Scenario, Sine, Timing, gastroscope, teleop
-from ebac._util.child_processes import end
+from ebac._util.child_processes import Child, end
 from ebac.plot import plot_teleop, plot_teleop_runs
 from ebac.teleop import Link, Packet, SlaveModel
 from ebac.teleop.processes import Slave
@@ -648,6 +651,45 @@ def test_endurance_finds_what_is_beyond_a_limit(monkeypatch: pytest.MonkeyPatch)
         assert sum("LINK LOST" in words for _, words in found.events[name]) == found.reported[name]
     assert all(len(values) > 3 for values in found.memory.values())
     _show([_row(found, name) for name in found.reports], found.faults)  # a network has no force
+
+
+@pytest.mark.parametrize(
+    ("last_words", "fault"),
+    [
+        ("sys.exit('out of memory')", "slave ended with 1: out of memory"),
+        ("sys.exit()", "slave ended after 0 s: must run for 600 s"),
+    ],
+)
+def test_a_process_that_dies_ends_the_endurance_run_and_the_others_report(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path, last_words: str, fault: str
+) -> None:
+    module: Any = sys.modules["ebac.teleop.endurance"]
+    waits = "while not all(map(os.path.exists, ('network', 'master'))): time.sleep(0.01)"
+    reports = "print(json.dumps({'command': sys.argv[1]})); sys.exit()"
+
+    @contextlib.contextmanager
+    def started(words: list[str]) -> Iterator[Child]:
+        name = words[1]
+        works = (
+            f"signal.signal(15, lambda *_: exec({reports!r})); open({name!r}, 'w'); time.sleep(60)"
+        )
+        code = "import json, os, signal, sys, time\n"
+        code += f"{waits}\n{last_words}" if name == "slave" else works
+        with tempfile.TemporaryFile() as out, tempfile.TemporaryFile() as err:
+            command = [sys.executable, "-S", "-c", code, name]
+            process = subprocess.Popen(command, stdout=out, stderr=err, cwd=tmp_path)
+            try:
+                yield Child(process, out, err)
+            finally:
+                end(process)
+
+    monkeypatch.setattr(module, "started", started)
+    monkeypatch.setattr(module, "BEFORE", 0.0)
+    monkeypatch.setattr(module, "EVERY", 0.02)
+    found = teleop.endurance(600)
+    assert found.faults == [fault]
+    assert {"network", "master"} <= set(found.reports)
+    assert found.reports["master"] == {"command": "master"}
 
 
 def test_a_process_that_does_not_end_is_killed() -> None:

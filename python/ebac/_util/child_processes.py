@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 import subprocess
 import sys
@@ -40,6 +41,18 @@ def text(file: IO[bytes]) -> str:
     # Not by seek and read: the process writes where this file stands.
     data = os.pread(file.fileno(), os.fstat(file.fileno()).st_size, 0)
     return data.decode(errors="replace")  # the last character may not yet be whole
+
+
+def last_report(printed: str) -> dict[str, Any]:
+    """Return the last line that is a report, as a command prints with --json; an empty one without it."""
+    for line in reversed(printed.splitlines()):
+        try:
+            found = json.loads(line)
+        except ValueError:
+            continue
+        if isinstance(found, dict) and "command" in found:
+            return found
+    return {}
 
 
 def first_lines(child: Child, count: int, seconds: float) -> list[str]:

@@ -12,7 +12,15 @@ from pathlib import Path
 from typing import Any
 
 from ebac._core import Link
-from ebac._util.child_processes import Child, end, first_lines, link_options, started, text
+from ebac._util.child_processes import (
+    Child,
+    end,
+    first_lines,
+    last_report,
+    link_options,
+    started,
+    text,
+)
 
 NAMES = ("slave", "network", "master")
 #: The longest a process may take to start [s].
@@ -133,7 +141,7 @@ def chain(
         _wait({name: one.process for name, one in running.items()}, seconds, give_up, meanwhile)
         texts = {name: (text(one.out), text(one.err)) for name, one in running.items()}
         codes = {name: int(one.process.wait()) for name, one in running.items()}
-    reports = {name: _json(texts[name][0]) for name in texts if _json(texts[name][0])}
+    reports = {name: found for name in texts if (found := last_report(texts[name][0]))}
     said = {name: texts[name][1] for name in texts}
     return Chain(reports=reports, codes=codes, said=said, faults=_faults(reports, codes, said))
 
@@ -191,15 +199,3 @@ def _wait(
         time.sleep(0.05)
     for process in processes.values():
         end(process)
-
-
-def _json(printed: str) -> dict[str, Any]:
-    """Return the last line that is a report."""
-    for line in reversed(printed.splitlines()):
-        try:
-            found = json.loads(line)
-        except ValueError:
-            continue
-        if isinstance(found, dict) and "command" in found:
-            return found
-    return {}

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import re
 import socket
 import subprocess
@@ -15,7 +14,14 @@ from typing import Any
 
 from ebac._core import Limits, Link
 from ebac._util.arguments import number
-from ebac._util.child_processes import Child, link_options, started, text
+from ebac._util.child_processes import (
+    Child,
+    end,
+    last_report,
+    link_options,
+    started,
+    text,
+)
 from ebac.scenario import Scenario
 from ebac.teleop.schemes import Scheme
 from ebac.teleop.schemes import scheme as scheme_of
@@ -34,6 +40,8 @@ CALM = 0.1
 FARTHEST = 0.05
 #: The slave and the network live longer than the master by this [s].
 BEFORE, AFTER = 1.0, 2.0
+#: The others end by themselves within this after the first that ends in time [s].
+PATIENCE = 60.0
 NAMES = ("slave", "network", "master")
 
 
@@ -44,7 +52,7 @@ class Endurance:
     Attributes
     ----------
     reports : dict of str to dict
-        What `ebac teleop slave`, `network` and `master --json` print at their end.
+        What `ebac teleop slave`, `network` and `master --json` print at their end; without those that printed nothing.
     reported : dict of str to int
         How often each process said that its link was lost.
     events : dict of str to list of tuple
@@ -130,19 +138,38 @@ def endurance(
             running[name] = stack.enter_context(started(command))
             if name == "network":
                 time.sleep(BEFORE)
-        _watch({name: one.process for name, one in running.items()}, memory, seconds, progress)
-        for one in running.values():
-            one.process.wait(timeout=60)
+        processes = {name: one.process for name, one in running.items()}
+        passed = _watch(processes, memory, seconds, progress)
+        ended = _ended(processes, PATIENCE if passed >= seconds else 0.0)
+        for process in processes.values():
+            end(process)
         texts = {name: (text(one.out), text(one.err)) for name, one in running.items()}
-        codes = {name: one.process.returncode for name, one in running.items()}
-    failed = [f"{name} ended with {codes[name]}: {texts[name][1]}" for name in NAMES if codes[name]]
-    if failed:
-        return Endurance(reports={}, reported={}, memory=memory, faults=failed)
-    reports = {name: json.loads(texts[name][0]) for name in NAMES}
+    failed = []
+    for name in NAMES:
+        said = " ".join(texts[name][1].split())[-300:]
+        if ended.get(name):
+            failed.append(f"{name} ended with {ended[name]}: {said}")
+        elif name in ended and passed < seconds:
+            failed.append(f"{name} ended after {passed:.0f} s: must run for {seconds:g} s")
+        elif name not in ended and passed >= seconds:
+            failed.append(f"{name} had not ended {PATIENCE:g} s after the run: {said}")
+        elif name in ended and not last_report(texts[name][0]):
+            failed.append(f"{name} ended without a report: {said}")
+    reports = {name: found for name in NAMES if (found := last_report(texts[name][0]))}
     reported = {name: texts[name][1].count("LINK LOST") for name in NAMES}
-    found = Endurance(reports=reports, reported=reported, memory=memory, faults=[])
     events = {name: _events(texts[name][1], name) for name in NAMES}
-    return replace(found, faults=_faults(found, over, chosen), events=events)
+    met = Endurance(reports=reports, reported=reported, memory=memory, faults=failed, events=events)
+    if set(reports) < set(NAMES):
+        return met
+    return replace(met, faults=[*failed, *_faults(met, over, chosen)])
+
+
+def _ended(processes: dict[str, subprocess.Popen[bytes]], patience: float) -> dict[str, int]:
+    """Return the codes of those that have ended by themselves, after a wait of at most `patience` [s] for all."""
+    latest = time.monotonic() + patience
+    while time.monotonic() < latest and any(one.poll() is None for one in processes.values()):
+        time.sleep(0.05)
+    return {name: code for name, one in processes.items() if (code := one.poll()) is not None}
 
 
 def _events(said: str, name: str) -> list[tuple[float, str]]:
@@ -206,12 +233,13 @@ def _watch(
     memory: dict[str, list[int]],
     seconds: float,
     progress: Callable[[float], None] | None,
-) -> None:
+) -> float:
+    """Note the memory of all until one of them ends; return after which time [s]."""
     begun = time.monotonic()
     while all(process.poll() is None for process in processes.values()):
         passed = time.monotonic() - begun
-        if passed > seconds + 60:
-            return
+        if passed > seconds + PATIENCE:
+            break
         for name, process in processes.items():
             value = _resident(process.pid)
             if value:
@@ -219,6 +247,7 @@ def _watch(
         if progress is not None:
             progress(min(passed, seconds))
         time.sleep(EVERY)
+    return time.monotonic() - begun
 
 
 def _resident(pid: int) -> int:
