@@ -7,16 +7,23 @@ import threading
 import time
 from collections.abc import Iterator
 from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
 
 import pytest
+import typer
 from typer.testing import CliRunner
 
 import ebac
 from ebac import Hand, MinimumJerk, Scenario, logs
 from ebac.cli import app
+from ebac.cli.drive.options import sure
+from ebac.cli.gastroscopy.drives import _notifier
 from ebac.cli.gastroscopy.side_table import show
 from ebac.cli.gastroscopy.teller import Teller
+from ebac.cli.run.confirm import can_ask
 from ebac.cli.teleop.consent import Consent
+from ebac.gastroscope.far_side import LinkEvent
 from ebac.gastroscope.on_drives import configuration, run_master, run_slave
 from ebac.hardware import OpenDevice
 from ebac.teleop import Link, Packet, processes, scheme
@@ -60,6 +67,35 @@ def test_the_end_of_standard_input_is_no_consent(monkeypatch: pytest.MonkeyPatch
         consent = Consent()
         consent.ask()
         assert not consent.given()
+
+
+def test_without_a_standard_input_nobody_consents_and_that_is_shown(
+    monkeypatch: pytest.MonkeyPatch, keyboard: int
+) -> None:
+    heard: list[str] = []
+    teller: Any = SimpleNamespace(say=heard.append)
+    notify = _notifier("master", teller, consent := Consent())
+    back = LinkEvent(t=1.0, what="back", text="the link is back")
+    notify(back)
+    assert "press Enter to go on" in heard[-1]
+    for none in (None, Path(os.devnull).open(encoding="utf-8")):  # noqa: SIM115
+        monkeypatch.setattr(sys, "stdin", none)
+        if none is not None:
+            none.close()
+        notify(back)
+        assert not consent.given()
+        assert "nobody can consent, as standard input is closed: end this" in heard[-1]
+
+
+def test_a_command_without_a_standard_input_refuses_what_it_has_to_ask(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr(sys, "stdin", None)
+    with pytest.raises(typer.Exit):
+        sure("Are the motors free?", yes=False)
+    assert "Nobody is here to ask: add --yes" in " ".join(capsys.readouterr().err.split())
+    with pytest.raises(typer.Exit):
+        can_ask(configuration("master"), yes=False)
 
 
 def test_a_stopped_terminal_holds_up_nobody() -> None:

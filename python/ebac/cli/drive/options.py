@@ -255,7 +255,7 @@ def sure(question: str, yes: bool) -> None:
     """Ask, unless --yes is given; where nobody can be asked, refuse."""
     if yes:
         return
-    if not sys.stdin.isatty():
+    if sys.stdin is None or not sys.stdin.isatty():
         output.fail(f"{question} Nobody is here to ask: add --yes")
     if not typer.confirm(question, err=True):
         output.fail("nothing was done", code=output.FAILED)

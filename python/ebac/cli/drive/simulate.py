@@ -284,6 +284,6 @@ def _tell(grants: list[Grant], *, as_json: bool) -> None:
 
 def _until_eof(over: threading.Event) -> None:
     """Wait for the end of standard input, then stop all."""
-    while sys.stdin.read(1024):
+    while sys.stdin is not None and sys.stdin.read(1024):
         pass
     over.set()

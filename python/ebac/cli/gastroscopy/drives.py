@@ -242,7 +242,7 @@ def _notifier(name: str, teller: Teller, enter: Consent | None = None) -> Any:
             return
         enter.withdraw()
         if event.what == "back":
-            teller.say("            press Enter to go on")
+            teller.say(f"            {enter.question}")
             enter.ask()
 
     return notify

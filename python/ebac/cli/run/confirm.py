@@ -31,7 +31,7 @@ def can_ask(known: Configuration, yes: bool) -> None:
     """End the command where nobody could be asked, before a drive is asked for anything."""
     if yes or known.interface != "socketcan" or known.zero.absolute:
         return
-    if not sys.stdin.isatty():
+    if sys.stdin is None or not sys.stdin.isatty():
         output.fail(
             f"{_ASKS} Nobody is here to ask: look at `ebac drive zero {known.name}`, then add --yes"
         )

@@ -16,6 +16,13 @@ class Consent:
     def __init__(self) -> None:
         self._asked = False
 
+    @property
+    def question(self) -> str:
+        """What to show when the link is back; without a standard input, that nobody can agree."""
+        if _keys() is not None:
+            return "press Enter to go on"
+        return "nobody can consent, as standard input is closed: end this, and start it again with a standard input"
+
     def ask(self) -> None:
         """Forget what was typed before, and wait for Enter from now on."""
         for _ in range(_MOST):
@@ -33,6 +40,17 @@ class Consent:
 
 
 def _typed() -> bytes:
-    """Return what waits on standard input; nothing at its end."""
-    ready, _, _ = select.select([sys.stdin], [], [], 0)
-    return os.read(sys.stdin.fileno(), 4096) if ready else b""
+    """Return what waits on standard input; nothing at its end, nor where there is none."""
+    keys = _keys()
+    if keys is None:
+        return b""
+    ready, _, _ = select.select([keys], [], [], 0)
+    return os.read(keys, 4096) if ready else b""
+
+
+def _keys() -> int | None:
+    """Return the file of standard input; None where the program was started without one, or it was closed."""
+    try:
+        return sys.stdin.fileno()
+    except (AttributeError, OSError, ValueError):
+        return None

@@ -178,7 +178,7 @@ def _run(name: str, side: Any, seconds: float | None, as_json: bool, by_hand: bo
                 _tell(f"{report['seconds']:8.1f} s  {name}: {STATES[state]}", as_json)
                 enter.withdraw()
                 if state == BACK and by_hand:
-                    _tell("            press Enter to go on", as_json)
+                    _tell(f"            {enter.question}", as_json)
                     enter.ask()
             if enter.given():
                 side.consent()
