@@ -50,6 +50,13 @@ def test_a_sensor_that_scales_otherwise_is_refused(page: int) -> None:
         here.replace(counts_per_torque=1.002e6).check_scale()
 
 
+def test_a_simulated_sensor_names_its_own_page() -> None:
+    with SimulatedSensor(http_port=0) as sensor:
+        assert sensor.http_address == ("127.0.0.1", sensor.config.http_port)
+        sensor.config.check_scale()
+    assert SimulatedSensor().config.http_port == 0  # it has none
+
+
 def test_a_sensor_without_its_page_is_told() -> None:
     with pytest.warns(UserWarning, match=r"not compared .*http_port = 0"):
         SensorConfig(host="127.0.0.1", http_port=9).check_scale()

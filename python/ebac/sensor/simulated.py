@@ -112,11 +112,12 @@ class SimulatedSensor:
 
     @property
     def config(self) -> SensorConfig:
-        """Where a client finds it, what its counts are worth, and how it sits."""
+        """Where a client finds it and its page, what its counts are worth, and how it sits."""
         host, port = self.address
         return self._config.replace(
             host="127.0.0.1" if host == "0.0.0.0" else host,
             port=port,
+            http_port=self.http_address[1] if self.http_address else 0,
             counts_per_force=self.options.counts_per_force,
             counts_per_torque=self.options.counts_per_torque,
         )
