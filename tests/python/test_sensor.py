@@ -187,6 +187,28 @@ def test_what_acts_now_is_zero(pushed: SimulatedSensor) -> None:
             assert time.monotonic() < deadline
 
 
+@pytest.mark.parametrize("configured", [False, True])
+def test_the_zero_inside_the_sensor_takes_the_place_of_the_one_here(configured: bool) -> None:
+    """It counts from what acts, not from what is left of it here, and is not taken off twice."""
+    with SimulatedSensor((8.0, 0.0, 0.0), rotation=TURNED, sign=-1) as simulated:
+        with Sensor.open(simulated.config) as plain:
+            zero = plain.bias(50, accept_load=True)
+        with Sensor.open(simulated.config, bias=zero if configured else (0.0,) * 6) as sensor:
+            if not configured:
+                sensor.bias(50, accept_load=True)
+            assert sensor.read().force == pytest.approx((0, 0, 0), abs=1e-9)
+            with pytest.raises(SensorError, match=r"a load acts on the sensor, 8 N: must be at mo"):
+                sensor.bias_inside(50)
+            assert sensor.read().force == pytest.approx((0, 0, 0), abs=1e-9)
+            before = sensor.counts
+            sensor.bias_inside(50, accept_load=True)
+            assert sensor.config.bias == (0.0,) * 6
+            assert sensor.counts.received > before.received
+            deadline = time.monotonic() + 5
+            while sensor.read().force != (0.0, 0.0, 0.0):
+                assert time.monotonic() < deadline
+
+
 def test_a_load_is_measured_by_the_range_of_the_sensor() -> None:
     with (
         SimulatedSensor((3.0, 0.0, 0.0)) as simulated,

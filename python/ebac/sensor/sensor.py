@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import time
 from types import TracebackType
 from typing import Any, Self
@@ -32,6 +33,7 @@ class Sensor:
         require(config, SensorConfig, "ebac.sensor.Sensor", "a SensorConfig")
         self.config = config
         self._client = RdtClient(config.core())
+        self._earlier = dict.fromkeys(SensorCounts.__dataclass_fields__, 0)  # of streams before
 
     @classmethod
     def open(
@@ -94,8 +96,9 @@ class Sensor:
     @property
     def counts(self) -> SensorCounts:
         """What came and what did not, as of the last read."""
-        names = SensorCounts.__dataclass_fields__
-        return SensorCounts(**{name: getattr(self._client, name) for name in names})
+        return SensorCounts(
+            **{name: n + getattr(self._client, name) for name, n in self._earlier.items()}
+        )
 
     @property
     def latest(self) -> SensorReading:
@@ -211,11 +214,27 @@ class Sensor:
         """Have the sensor itself take what acts now as zero (software bias).
 
         It holds for every program, until the sensor loses its power. Nothing answers: see the next reading. Parameters
-        and errors are those of `bias`; what acts is watched first.
+        and errors are those of `bias`; what acts is watched first. A zero that was taken here, or `SensorConfig.bias`,
+        does not count for the load, and is 0 from then on.
         """
         found = self.rest(records, timeout=timeout)
-        found.check(self.config, accept_load=accept_load, accept_unsteady=accept_unsteady)
+        here = self._bias()
+        load: Any = tuple(left + zero for left, zero in zip(found.mean, here, strict=True))
+        whole = dataclasses.replace(found, mean=load)
+        whole.check(self.config, accept_load=accept_load, accept_unsteady=accept_unsteady)
         self._client.bias_sensor()
+        if any(here):
+            self._begin_without_zero(timeout)
+
+    def _begin_without_zero(self, timeout: float) -> None:
+        """Begin the stream anew with nothing taken off here: a client of the core keeps its zero."""
+        config = self.config.replace(bias=(0.0,) * 6)
+        client = RdtClient(config.core())
+        self._earlier = self.counts.row()
+        self._client.close()
+        self.config, self._client = config, client
+        self._client.start()
+        self.read(timeout)
 
     def _biasing(self) -> bool:
         """Whether the zero has not yet been taken."""
