@@ -122,6 +122,45 @@ def test_an_open_surface_needs_a_thickness(tmp_path: Path) -> None:
     assert touch.force == pytest.approx([0, 0, -500 * 21e-3], abs=0.05)  # a thin sheet holds
 
 
+@pytest.mark.parametrize("kind", ["v//vn", "v/vt", "glb", "ply"])
+def test_corners_that_are_kept_apart_for_their_look_leave_a_mesh_closed(
+    tmp_path: Path, kind: str
+) -> None:
+    """A closed box was refused as open: each face had corners of its own, with a normal or a place in a picture."""
+    import trimesh
+
+    box = trimesh.creation.box((0.04, 0.04, 0.04))
+    file = tmp_path / f"box.{kind if kind in ('glb', 'ply') else 'obj'}"
+    apart = trimesh.Trimesh(
+        box.triangles.reshape(-1, 3),
+        np.arange(36).reshape(-1, 3),
+        vertex_normals=np.repeat(box.face_normals, 3, axis=0),
+        process=False,
+    )
+    if kind == "glb":
+        apart.export(file, include_normals=True)
+    elif kind == "ply":
+        apart.export(file, vertex_normal=True)
+    else:
+        mark, name = ("//", "vn") if kind == "v//vn" else ("/", "vt")
+        count, size = (12, 3) if name == "vn" else (4, 2)
+        look = box.face_normals if name == "vn" else np.array([[0, 0], [1, 0], [1, 1], [0, 1]])
+        rows = [f"v {x} {y} {z}" for x, y, z in box.vertices]
+        rows += [" ".join([name, *map(str, one[:size])]) for one in look[:count]]
+        for i, face in enumerate(box.faces):
+            marks = [i + 1] * 3 if name == "vn" else [1 + (i + k) % 4 for k in range(3)]
+            rows.append(
+                "f " + " ".join(f"{v + 1}{mark}{k}" for v, k in zip(face, marks, strict=True))
+            )
+        file.write_text("\n".join(rows), encoding="utf-8")
+    surface = Mesh(str(file), cell=2e-3).surface()
+    assert len(surface.vertices) == 8
+    assert np.ptp(surface.vertices, axis=0) == pytest.approx([0.04] * 3)
+    trimesh.Trimesh(apart.vertices[:-3], apart.faces[:-1], process=False).export(file)
+    with pytest.raises(ValueError, match="open, 3 edges"):
+        Mesh(str(file), cell=2e-3)
+
+
 def test_what_is_no_mesh_is_refused(tmp_path: Path) -> None:
     text = tmp_path / "text.stl"
     text.write_text("hello", encoding="utf-8")

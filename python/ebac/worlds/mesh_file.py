@@ -32,6 +32,8 @@ def read(file: str, changed: int) -> tuple[Values, Ints, int]:
     trimesh = needed("trimesh", "trimesh")
     try:
         mesh = trimesh.load_mesh(file)
+        if len(mesh.faces):  # a corner has a copy for each of its normals and places in a picture
+            mesh.merge_vertices(merge_tex=True, merge_norm=True)
         vertices, faces = np.array(mesh.vertices, float), np.array(mesh.faces, np.int64)
     except Exception as error:
         raise ValueError(f"{file}: cannot be read as a mesh ({error})") from error
