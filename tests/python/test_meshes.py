@@ -10,7 +10,17 @@ import pytest
 
 import ebac
 from ebac.metrics import world_contact
-from ebac.worlds import Body, Elastic, HeightField, Mesh, Placed, World, distance, preset
+from ebac.worlds import (
+    Body,
+    Elastic,
+    HeightField,
+    LocalModel,
+    Mesh,
+    Placed,
+    World,
+    distance,
+    preset,
+)
 from ebac.worlds.presets import MESH_SIZE
 
 pytestmark = pytest.mark.skipif(
@@ -93,6 +103,23 @@ def test_ebac_is_exact_and_quiet_on_a_mesh(ball: Path) -> None:
 def test_a_mesh_goes_to_toml_and_back(cube: Path) -> None:
     scenario = ebac.Scenario(environment=World(Body(solid=Mesh(str(cube), cell=2e-3))), seconds=0.1)
     assert ebac.Scenario.from_toml(scenario.to_toml()) == scenario
+
+
+def test_numbers_of_numpy_are_kept_as_plain_ones_and_written(cube: Path, tmp_path: Path) -> None:
+    single = np.float32
+    mesh = Mesh(
+        str(cube), scale=np.int64(1), size=single(0.05), cell=single(2e-3), thickness=np.int8(0)
+    )
+    flat = np.zeros((3, 3), np.float32)
+    ground = HeightField.of(flat, spacing=single(0.01), base=single(0.01), cell=single(2e-3))
+    for part in (mesh, ground):
+        kinds = {type(value) for value in part.as_dict().values()}
+        assert kinds <= {float, str, tuple}, part
+        scenario = ebac.Scenario(environment=World(part), seconds=0.1)
+        assert ebac.Scenario.from_toml(scenario.to_toml()) == scenario
+    ebac.simulate(scenario, "direct").save(tmp_path / "run.npz")
+    model = LocalModel(at=(0, 0, 0), normal=(1, 0, 0), stiffness=single(300), radius=single(0.1))
+    assert type(model.stiffness) is type(model.radius) is float
 
 
 def test_a_log_is_read_without_the_mesh_of_its_run(cube: Path, tmp_path: Path) -> None:

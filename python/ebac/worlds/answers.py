@@ -75,7 +75,10 @@ class LocalModel:
                 raise ValueError(
                     f"LocalModel.{name} = {value:g} {unit}: must lie in [0, {most:g}] {unit}"
                 )
-        if not abs(number("LocalModel.radius", self.radius)) >= 1e-4:
+            object.__setattr__(self, name, value)
+        radius = number("LocalModel.radius", self.radius)
+        object.__setattr__(self, "radius", radius)
+        if not abs(radius) >= 1e-4:
             raise ValueError(
                 f"LocalModel.radius = {self.radius} m: must be 1e-4 m at least in size; infinite for a plane"
             )

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 from ebac._util.arguments import number
 from ebac._util.wrong_calls import plain_constructor
 from ebac.worlds.grid import Surface
-from ebac.worlds.part import array
+from ebac.worlds.part import array, keep
 from ebac.worlds.triangles import Triangles, check_cell
 
 
@@ -53,14 +53,16 @@ class HeightField(Triangles):
             raise ValueError(
                 f"HeightField.heights: shape {heights.shape}: must be (n, m), 2 at least each, within [-1, 1] m"
             )
-        if not 1e-4 <= number("HeightField.spacing", self.spacing) <= 1:
+        spacing = number("HeightField.spacing", self.spacing)
+        if not 1e-4 <= spacing <= 1:
             raise ValueError(f"HeightField.spacing = {self.spacing!r} m: must lie in [0.0001, 1] m")
         lowest = -heights.min()
-        if self.base is not None and not lowest < number("HeightField.base", self.base) <= 10:
+        base = None if self.base is None else number("HeightField.base", self.base)
+        if base is not None and not lowest < base <= 10:
             raise ValueError(
                 f"HeightField.base = {self.base!r} m: must lie in ({lowest:g}, 10] m, below the lowest place"
             )
-        check_cell("HeightField", self.cell)
+        keep(self, spacing=spacing, base=base, cell=check_cell("HeightField", self.cell))
         object.__setattr__(self, "heights", tuple(tuple(map(float, row)) for row in heights))
 
     @classmethod

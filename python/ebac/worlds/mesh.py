@@ -14,6 +14,7 @@ from ebac._util.arguments import number
 from ebac._util.wrong_calls import plain_constructor
 from ebac.worlds.grid import Surface
 from ebac.worlds.mesh_file import read
+from ebac.worlds.part import keep
 from ebac.worlds.triangles import Triangles, check_cell
 
 #: A mesh that is longer was probably drawn in millimetres, and read as metres [m].
@@ -72,16 +73,19 @@ class Mesh(Triangles):
         object.__setattr__(self, "file", str(self.file))
         if Path(self.file).is_dir():  # the empty path, too
             raise ValueError(f"Mesh.file = {self.file!r}: is a folder, must be the path of a file")
-        if not 1e-6 <= number("Mesh.scale", self.scale) <= 1e3:
+        scale = number("Mesh.scale", self.scale)
+        if not 1e-6 <= scale <= 1e3:
             raise ValueError(f"Mesh.scale = {self.scale!r} m: must lie in [1e-06, 1000] m")
-        if self.size is not None and not 1e-3 <= number("Mesh.size", self.size) <= 10:
+        size = None if self.size is None else number("Mesh.size", self.size)
+        if size is not None and not 1e-3 <= size <= 10:
             raise ValueError(f"Mesh.size = {self.size!r} m: must lie in [0.001, 10] m")
-        check_cell("Mesh", self.cell)
+        cell = check_cell("Mesh", self.cell)
         thickness = number("Mesh.thickness", self.thickness)
         if thickness != 0 and not 1e-4 <= thickness <= 0.1:
             raise ValueError(
                 f"Mesh.thickness = {self.thickness!r} m: must be 0 or lie in [0.0001, 0.1] m"
             )
+        keep(self, scale=scale, size=size, cell=cell, thickness=thickness)
         longest = float(np.ptp(self.surface().vertices, axis=0).max())
         if longest > LONGEST:
             warnings.warn(

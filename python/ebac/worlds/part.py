@@ -20,6 +20,12 @@ class Part:
         return {name: value for name, value in values.items() if value is not None}
 
 
+def keep(part: Any, **values: float | None) -> None:
+    """Keep checked numbers in a frozen part as plain ones: NumPy's are not written to TOML."""
+    for name, value in values.items():
+        object.__setattr__(part, name, value)
+
+
 def three(name: str, given: Any, unit: str, most: float) -> tuple[float, float, float]:
     """Return three numbers of a vector, each at most `most` in size."""
     refusal = f"{name} = {given!r} {unit}: must be three numbers in [-{most:g}, {most:g}] {unit}"

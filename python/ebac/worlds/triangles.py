@@ -129,7 +129,11 @@ def _longest(surface: Surface) -> float:
     return float(np.ptp(surface.vertices, axis=0).max()) + surface.thickness
 
 
-def check_cell(name: str, cell: float | None) -> None:
-    """Refuse a cell that is no number or out of range."""
-    if cell is not None and not 1e-5 <= number(f"{name}.cell", cell) <= 0.1:
+def check_cell(name: str, cell: float | None) -> float | None:
+    """Return a cell as a plain number; refuse one that is no number or out of range."""
+    if cell is None:
+        return None
+    value = number(f"{name}.cell", cell)
+    if not 1e-5 <= value <= 0.1:
         raise ValueError(f"{name}.cell = {cell!r} m: must lie in [1e-05, 0.1] m")
+    return value
