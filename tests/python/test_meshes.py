@@ -79,14 +79,30 @@ def test_far_away_a_distance_is_never_too_long(ball: Path) -> None:
 
 
 def test_a_grid_is_kept_and_a_damaged_one_is_made_anew(cube: Path, tmp_path: Path) -> None:
-    mesh = Mesh(str(cube), cell=2e-3)
+    mesh = Mesh(str(cube), cell=5e-3)
     made = []
     first = mesh.grid(lambda done, all_of_them: made.append((done, all_of_them)))
     assert made[-1][0] == made[-1][1]
     (file,) = (tmp_path / "cache").glob("*.npz")
     assert np.array_equal(mesh.grid(lambda *_: pytest.fail("made anew")).nodes, first.nodes)
-    file.write_bytes(file.read_bytes()[:1000])
-    assert np.array_equal(mesh.grid().nodes, first.nodes)
+    whole = file.read_bytes()
+    flags = bytearray(whole)
+    flags[whole.rindex(b"PK\x01\x02") + 8] |= 1  # as if a password were needed
+    for damaged in (whole[:1000], b"", b"PK", whole[:-200], bytes(flags)):
+        file.write_bytes(damaged)
+        assert np.array_equal(mesh.grid().nodes, first.nodes), damaged[:10]
+        assert file.read_bytes() == whole
+
+
+def test_a_grid_that_cannot_be_kept_leaves_nothing_behind(
+    cube: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def full(*_: object, **__: object) -> None:
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(np, "savez", full)
+    assert Mesh(str(cube), cell=2e-3).grid().cell == 2e-3
+    assert not list((tmp_path / "cache").iterdir())
 
 
 @pytest.mark.slow

@@ -12,7 +12,6 @@ from dataclasses import dataclass, fields
 from pathlib import Path
 from types import ModuleType
 from typing import Any
-from zipfile import BadZipFile
 
 import numpy as np
 from numpy.typing import NDArray
@@ -221,8 +220,8 @@ def cached_grid(surface: Surface, cell: float, progress: Progress | None = None)
         with path.open("rb") as file, np.load(file) as kept:
             values: dict[str, Any] = {name: kept[name] for name in kept.files}
         return Grid(**values | {name: float(values[name]) for name in ("cell", "margin")})
-    except (OSError, ValueError, KeyError, TypeError, BadZipFile):
-        pass  # not there, or damaged: made anew
+    except Exception:  # not there, or damaged, which has a dozen errors: made anew
+        pass
     grid = grid_of(surface, cell, progress)
     _keep(grid, path)
     return grid
@@ -233,7 +232,14 @@ def _keep(grid: Grid, path: Path) -> None:
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
         with tempfile.NamedTemporaryFile(dir=path.parent, suffix=".part", delete=False) as file:
-            np.savez(file, **{one.name: getattr(grid, one.name) for one in fields(grid)})
-        Path(file.name).replace(path)
+            part = Path(file.name)
+            try:
+                np.savez(file, **{one.name: getattr(grid, one.name) for one in fields(grid)})
+                file.flush()
+                os.fsync(file.fileno())  # or a crash leaves the name, and nothing in the file
+                part.replace(path)
+            except BaseException:
+                part.unlink(missing_ok=True)
+                raise
     except OSError:
         return
