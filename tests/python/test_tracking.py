@@ -160,6 +160,11 @@ def test_intervals_cover_the_truth(shape: str) -> None:
     assert 0.92 <= np.mean(covered) <= 0.98
 
 
+@pytest.mark.parametrize("end", [0.0, -0.0, -1e-18])
+def test_a_line_to_the_left_has_the_angle_pi_never_minus_pi(end: float) -> None:
+    assert fit_line([[2, 0], [1, 0], [0, end]]).angle_rad == math.pi
+
+
 def test_a_path_recorded_ten_times_as_often_knows_no_more() -> None:
     once = noisy("circle", 3, n=200)
     often = np.repeat(once, 10, axis=0)

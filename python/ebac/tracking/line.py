@@ -51,7 +51,8 @@ class LineFit:
     @property
     def angle_rad(self) -> float:
         """Direction in the plane of the first two axes, (-pi, pi] [rad]."""
-        return float(np.arctan2(self.direction[1], self.direction[0]))
+        angle = float(np.arctan2(self.direction[1], self.direction[0]))
+        return angle if angle > -np.pi else float(np.pi)  # a direction has -0.0, too
 
     def __repr__(self) -> str:
         """Return one line: length, direction, deviation, points counted."""
