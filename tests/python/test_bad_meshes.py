@@ -11,7 +11,7 @@ import pytest
 from typer.testing import CliRunner
 
 from ebac.cli import app
-from ebac.worlds import Mesh, Sphere, World
+from ebac.worlds import HeightField, Mesh, Sphere, World
 
 pytestmark = pytest.mark.skipif(
     not (find_spec("trimesh") and find_spec("igl")), reason="needs trimesh and libigl"
@@ -41,6 +41,12 @@ def test_cells_too_fine_are_refused_at_once() -> None:
     box().export("box.stl")
     with pytest.raises(ValueError, match=r"Mesh.cell = 1e-05 m: .* bricks .* give a larger cell"):
         World(Mesh("box.stl", scale=1e-3, cell=1e-5))
+
+
+def test_cells_of_ground_that_are_too_fine_are_refused_by_their_own_name() -> None:
+    ground = HeightField.of(np.zeros((2, 2)), spacing=0.1, cell=1e-5)
+    with pytest.raises(ValueError, match=r"^HeightField.cell = 1e-05 m: .* give a larger cell"):
+        ground.grid()
 
 
 def test_cells_too_coarse_are_refused() -> None:

@@ -139,15 +139,20 @@ def needed(module: str, project: str, *, what: str = "meshes", extra: str = "wor
         ) from error
 
 
-def grid_of(surface: Surface, cell: float, progress: Progress | None = None) -> Grid:
-    """Return the grid of a surface; `progress`, or that of `watching`, is called with nodes done and all."""
+def grid_of(
+    surface: Surface, cell: float, progress: Progress | None = None, *, owner: str = "Mesh"
+) -> Grid:
+    """Return the grid of a surface; `owner` is whose cell it is, for messages.
+
+    `progress`, or that of `watching`, is called with nodes done and all.
+    """
     low = surface.vertices.min(axis=0) - 0.5 * surface.thickness
     high = surface.vertices.max(axis=0) + 0.5 * surface.thickness
     edge = BRICK * cell
     bricks = np.ceil((high - low) / edge + 2).astype(int)
     if (count := np.prod(bricks.astype(float))) > MOST_BRICKS:
         raise ValueError(
-            f"Mesh.cell = {cell:g} m: the grid would have {count:,.0f} bricks of {BRICK} cells a side, "
+            f"{owner}.cell = {cell:g} m: the grid would have {count:,.0f} bricks of {BRICK} cells a side, "
             f"{MOST_BRICKS:,} at most; give a larger cell"
         )
     origin = 0.5 * (low + high - bricks * edge)
@@ -157,7 +162,7 @@ def grid_of(surface: Surface, cell: float, progress: Progress | None = None) -> 
     near = _cells(bricks)[nearby]
     if len(near) * (BRICK + 1) ** 3 > MOST_NODES:
         raise ValueError(
-            f"Mesh.cell = {cell:g} m: the grid would have {len(near) * (BRICK + 1) ** 3:,} nodes, "
+            f"{owner}.cell = {cell:g} m: the grid would have {len(near) * (BRICK + 1) ** 3:,} nodes, "
             f"{MOST_NODES:,} at most; give a larger cell"
         )
     index = np.full(bricks, -1, np.int32)
@@ -210,8 +215,10 @@ def cache_folder() -> Path:
     return Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "ebac" / "worlds"
 
 
-def cached_grid(surface: Surface, cell: float, progress: Progress | None = None) -> Grid:
-    """Return the grid of a surface, from the cache if it is there."""
+def cached_grid(
+    surface: Surface, cell: float, progress: Progress | None = None, *, owner: str = "Mesh"
+) -> Grid:
+    """Return the grid of a surface, from the cache if it is there; arguments as of `grid_of`."""
     code = hashlib.sha256()
     for part in (surface.vertices, surface.faces, np.array([surface.thickness, cell, VERSION])):
         code.update(np.ascontiguousarray(part).tobytes())
@@ -222,7 +229,7 @@ def cached_grid(surface: Surface, cell: float, progress: Progress | None = None)
         return Grid(**values | {name: float(values[name]) for name in ("cell", "margin")})
     except Exception:  # not there, or damaged, which has a dozen errors: made anew
         pass
-    grid = grid_of(surface, cell, progress)
+    grid = grid_of(surface, cell, progress, owner=owner)
     _keep(grid, path)
     return grid
 

@@ -80,7 +80,7 @@ class Triangles(Part):
             raise ValueError(
                 f"{type(self).__name__}.cell = {cell:g} m: must be {coarsest:g} m at most, a quarter of its size"
             )
-        return cached_grid(surface, cell, progress)
+        return cached_grid(surface, cell, progress, owner=type(self).__name__)
 
     def cell_m(self, surface: Surface | None = None) -> float:
         """Return the edge of a cell [m]."""
