@@ -9,9 +9,11 @@ import pytest
 
 import ebac
 from ebac import drives, identify, worlds
+from ebac.worlds import solids
 
 E: Any = ebac
 W: Any = worlds
+SOLIDS = ", ".join(kind.__name__ for kind in solids.SOLIDS)
 
 
 @pytest.fixture(scope="module")
@@ -225,6 +227,19 @@ def trace() -> Any:
         (
             lambda t: E.testing.assert_passive(3),
             "ebac.testing.assert_passive takes a Trace, not 3 (int)",
+        ),
+        (lambda t: W.distance(5, [[0, 0, 0]]), f"distance: solid = 5: must be a solid: {SOLIDS}"),
+        (
+            lambda t: W.distance(W.Sphere(), "a"),
+            "distance: points = 'a' (str): must be numbers, shape (n, 3)",
+        ),
+        (
+            lambda t: E.gastroscope.Lumen(points=[[0, 0, 0], [0, 0, 1]], radii=[1, 1], wall=5),
+            f"Lumen.wall = 5: must be a solid: {SOLIDS}",
+        ),
+        (
+            lambda t: E.gastroscope.Lumen(5),
+            "Lumen.patient takes a Patient, not 5 (int)",
         ),
         (
             lambda t: E.testing.assert_within_limits(3),

@@ -10,7 +10,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ebac._core import Patient, _Lumen
-from ebac.worlds.solids import Solid, made
+from ebac._util.arguments import require
+from ebac.worlds.solids import Solid, check_solid, made
 
 
 class Wall(NamedTuple):
@@ -51,6 +52,8 @@ class Lumen:
     ValueError
         For fewer than two points, another number of radii, a radius out of its range, points too close, or a wall or
         radii without points.
+    TypeError
+        For a patient or a wall of another type.
     """
 
     def __init__(
@@ -62,6 +65,9 @@ class Lumen:
         wall: Solid | None = None,
     ) -> None:
         self.patient = Patient() if patient is None else patient
+        require(self.patient, Patient, "Lumen.patient", "a Patient")
+        if wall is not None:
+            check_solid("Lumen.wall", wall)
         line = np.zeros((0, 3)) if points is None else np.array(points, dtype=float)
         if line.ndim != 2 or line.shape[1] != 3 or not np.isfinite(line).all():
             raise ValueError(f"Lumen.points: has the shape {line.shape}: must be (n, 3), finite")

@@ -205,11 +205,16 @@ SOLIDS = (
 )  # fmt: skip
 
 
+def check_solid(name: str, solid: object) -> None:
+    """Refuse what is no solid."""
+    if not isinstance(solid, SOLIDS):
+        names = ", ".join(kind.__name__ for kind in SOLIDS)
+        raise TypeError(f"{name} = {solid!r}: must be a solid: {names}")
+
+
 def _check_solids(whole: Part, name: str, *solids: object) -> None:
     for solid in solids:
-        if not isinstance(solid, SOLIDS):
-            names = ", ".join(kind.__name__ for kind in SOLIDS)
-            raise TypeError(f"{name} = {solid!r}: must be a solid: {names}")
+        check_solid(name, solid)
     depth = 1 + max(getattr(solid, "_depth", 0) for solid in solids)
     if depth > DEEPEST:
         raise ValueError(
@@ -261,5 +266,12 @@ def distance(solid: Solid, points: ArrayLike) -> tuple[NDArray[np.float64], NDAr
         Negative inside [m]. Outside never more than the true distance, near the surface that distance.
     normals : array, shape (n, 3)
         Unit vectors away from the solid.
+
+    Raises
+    ------
+    TypeError
+        For what is no solid, or no array of numbers.
     """
-    return made(solid).distances(np.atleast_2d(np.asarray(points, float)))
+    check_solid("distance: solid", solid)
+    places = array("distance: points", points, "numbers, shape (n, 3)")
+    return made(solid).distances(np.atleast_2d(places))
