@@ -10,6 +10,7 @@ namespace ebac::world {
 /// How far a point is from a surface [m], negative inside, and the unit vector that points away from the solid.
 ///
 /// Never more than the true distance outside, so that a step of that length meets nothing; exact near the surface.
+/// Waves (`Textured`) are exact there to first order only.
 struct Distance {
   double d = 0;
   Axes out = Axes::UnitX();

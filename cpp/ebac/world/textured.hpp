@@ -38,6 +38,8 @@ struct Texture {
 };
 
 /// A solid with a texture.
+///
+/// Its distance is exact to first order; outside it may exceed the true one by half the amplitude.
 class Textured final : public Solid {
  public:
   Textured(SolidPtr solid, const Texture& texture) : solid_(std::move(solid)), texture_(texture) {}

@@ -64,6 +64,9 @@ class Cavity(Part):
 class Textured(Part):
     """A solid with waves on its surface, (sin kx + sin ky + sin kz) / 3 of the place.
 
+    Its distance is the height above the waves, divided near them by their slope: exact to first order, and outside up
+    to half the amplitude more than the true distance.
+
     Parameters
     ----------
     solid : solid
@@ -263,7 +266,8 @@ def distance(solid: Solid, points: ArrayLike) -> tuple[NDArray[np.float64], NDAr
     Returns
     -------
     distances : array, shape (n,)
-        Negative inside [m]. Outside never more than the true distance, near the surface that distance.
+        Negative inside [m]. Outside never more than the true distance, near the surface that distance; of a `Textured`
+        solid exact to first order near the surface, and outside up to half the amplitude of the waves too long.
     normals : array, shape (n, 3)
         Unit vectors away from the solid.
 
