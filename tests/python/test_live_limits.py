@@ -5,6 +5,7 @@ import signal
 import subprocess
 import sys
 import urllib.request
+from math import pi
 from pathlib import Path
 from typing import Any
 
@@ -15,8 +16,11 @@ import ebac
 from ebac import datasets, worlds
 from ebac._core import Disc, Free, Wall
 from ebac.cli import app
+from ebac.cli.catalogue.contact_at_place import met
+from ebac.hardware.world_place import distances_at
 from ebac.live import Session
 from ebac.live.device_limits import DeviceLimits, surface_of
+from ebac.live.surface import surface
 
 
 def test_a_world_that_the_handle_stands_in_is_refused() -> None:
@@ -25,6 +29,21 @@ def test_a_world_that_the_handle_stands_in_is_refused() -> None:
     with pytest.raises(ValueError, match="stands 10 mm inside that world: move it out"):
         limits.check_place(Wall(position=0.01, stiffness=5e3), [0.02, 0.0])
     limits.check_place(Free(), [0.02])
+
+
+def test_a_body_that_swings_stands_where_it_is_at_the_time_0() -> None:
+    motion = worlds.Swing(amplitude_x=0.02, phase=pi / 2)
+    ball = worlds.World(worlds.Body(solid=worlds.Sphere(radius=0.02), motion=motion))
+    vertices, _ = surface(ball)
+    assert 0.5 * (vertices.min(axis=0) + vertices.max(axis=0)) == pytest.approx(
+        [0.02, 0, 0], abs=1e-4
+    )
+    limits = DeviceLimits.of(ball, None, None)
+    limits.check_place(ball, [-0.01])
+    with pytest.raises(ValueError, match="stands 10 mm inside that world"):
+        limits.check_place(ball, [0.03])
+    assert distances_at(ball, [-0.01])["body 1"] == pytest.approx(0.01)
+    assert met(ball, (0.03, 0.0, 0.0))["distance_m"] == pytest.approx(-0.01)
 
 
 def test_limits_of_a_file_hold_for_every_kind_of_world() -> None:

@@ -92,7 +92,8 @@ def check_reached(device: Device, limits: Limits, environment: Environment) -> N
 def distances_at(environment: Environment, at: Sequence[float]) -> dict[str, float]:
     """Return how far the handle at a place is from each surface [m], by its name; negative inside.
 
-    A moving wall counts as at rest. The surface of an engine is not known before it answers.
+    A moving wall counts as at rest, a moving body as where it is at the time 0. The surface of an engine is not known
+    before it answers.
 
     Parameters
     ----------
@@ -138,11 +139,15 @@ def check_stays_outside(before: Environment, after: Environment, at: Sequence[fl
 
 
 def _to_bodies(world: Any, at: Sequence[float]) -> dict[str, float]:
-    """Return the distance to each body at rest; of a gimbal's handle in its plane, which is a little less or more."""
+    """Return the distance to each body at the time 0; of a gimbal's handle in its plane, a little less or more."""
     from ebac.worlds import distance
+    from ebac.worlds.world import begin_of
 
     if not hasattr(world, "bodies"):
         return {}
     place = np.array([at], float)
     named = {f"body {i + 1}": body for i, body in enumerate(world.bodies)}
-    return {name: float(distance(body.solid, place)[0][0]) for name, body in named.items()}
+    return {
+        name: float(distance(body.solid, place - begin_of(body))[0][0])
+        for name, body in named.items()
+    }

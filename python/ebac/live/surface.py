@@ -45,7 +45,7 @@ def surface(world: Environment, *, cells: int = CELLS) -> tuple[Values, NDArray[
 
 
 def distance_of(world: Environment) -> Distance | None:
-    """Return a function of points, shape (n, 3), that is negative inside; None where there is no body."""
+    """Return a function of points, shape (n, 3), that is negative inside at the time 0; None where there is no body."""
     engine = foreign(world)
     world = world if engine is None else engine.ideal() or Free()
     if isinstance(world, Free):
@@ -58,9 +58,10 @@ def distance_of(world: Environment) -> Distance | None:
     if isinstance(world, Disc):
         return _upright(lambda p: np.hypot(p[:, 0] - world.x, p[:, 1] - world.y) - world.radius)
     from ebac.worlds.solids import distance
+    from ebac.worlds.world import begin_of
 
     bodies: Any = world.bodies  # type: ignore[attr-defined]  # every other _World is a World
-    return lambda p: np.min([distance(one.solid, p)[0] for one in bodies], axis=0)
+    return lambda p: np.min([distance(one.solid, p - begin_of(one))[0] for one in bodies], axis=0)
 
 
 def _wall(wall: Wall) -> Distance:

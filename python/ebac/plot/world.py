@@ -63,7 +63,10 @@ def plot_world(world: World, traces: Sequence[Trace] = ()) -> Picture:
 
 
 def nearest(world: World, points: Values) -> tuple[Values, Values]:
-    """Return distance to and direction away from the nearest body at the time 0, shapes (n,) and (n, 3)."""
+    """Return distance to and direction away from the nearest body, shapes (n,) and (n, 3).
+
+    What swings is in the middle of its swing.
+    """
     best = np.full(len(points), np.inf)
     out = np.zeros((len(points), 3))
     for body in world.bodies:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from math import sin
 from typing import Any, NamedTuple, Self
 
 import numpy as np
@@ -89,6 +90,13 @@ class Body(Part):
         if not 0 <= friction <= 2:
             raise ValueError(f"Body.friction = {self.friction}: must lie in [0, 2]")
         object.__setattr__(self, "friction", friction)
+
+
+def begin_of(body: Body) -> NDArray[np.float64]:
+    """Return where the origin of a body is at the time 0, when it is not turned yet, shape (3,) [m]."""
+    swing = body.motion
+    ends = (swing.amplitude_x, swing.amplitude_y, swing.amplitude_z)
+    return np.array([sin(swing.phase) * end for end in ends])
 
 
 class Touch(NamedTuple):

@@ -45,6 +45,7 @@ def met(world: World, place: tuple[float, float, float]) -> dict[str, Any]:
     import numpy as np
 
     from ebac.worlds import distance
+    from ebac.worlds.world import begin_of
 
     end = np.array(place)
     steps = max(1, int(np.ceil(np.linalg.norm(end) / STRIDE)))
@@ -52,7 +53,9 @@ def met(world: World, place: tuple[float, float, float]) -> dict[str, Any]:
     touching = touch.stiffness > 0 or bool(touch.force.any())
     return {
         "place_m": list(place),
-        "distance_m": min(float(distance(body.solid, end)[0][0]) for body in world.bodies),
+        "distance_m": min(
+            float(distance(body.solid, end - begin_of(body))[0][0]) for body in world.bodies
+        ),
         "depth_m": touch.depth,
         "force_N": touch.force.tolist(),
         "normal": touch.normal.tolist() if touching else None,
