@@ -21,6 +21,7 @@ from typer.testing import CliRunner
 from ebac import Trace, gastroscope, logs
 from ebac.cli import app
 from ebac.gastroscope import Lumen, Master, Patient, Procedure, Scope, Slave, camera
+from ebac.live.gastroscopy_session import GastroscopySession
 from ebac.plot import plot_gastroscopy, plot_gastroscopy_study
 from ebac.worlds import Cavity, Tube
 
@@ -406,3 +407,16 @@ def test_the_tutorial_shows_what_the_command_prints() -> None:
     done = CliRunner().invoke(app, ["gastroscopy", "--no-files"])
     printed = [" ".join(line.split()) for line in done.stdout.splitlines()]
     assert [line for line in lines if line not in printed] == []
+
+
+@pytest.mark.parametrize("law", ["ebac", "lag-compensator-tuned-observer"])
+def test_a_live_gastroscopy_is_the_run_of_the_same_law(law: str) -> None:
+    """A law that was tuned on the observer's estimate ran on the encoder alone."""
+    procedure = Procedure(seconds=1)
+    whole = gastroscope.gastroscopy(law, procedure, every=20)
+    with GastroscopySession(law, procedure) as session:
+        session.advance(0.9)
+        row = session.snapshot()[0]
+    at = int(np.argmin(np.abs(whole.rows["t"] - row["t"])))
+    for name in ("t", "place", "handle_x", "handle_z", "x", "z"):
+        assert row[name] == whole.rows[name][at], name

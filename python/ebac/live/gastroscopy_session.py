@@ -12,6 +12,7 @@ from ebac import _core
 from ebac.gastroscope import Procedure
 from ebac.gastroscope.procedure import core_law
 from ebac.laws import AnyLaw, law_name
+from ebac.laws.tuned_laws import on_its_observer
 
 #: Time from look to look [s], and how far the strips look back [s].
 LOOK, BACK = 1 / 50, 10.0
@@ -44,7 +45,7 @@ class GastroscopySession:
 
     def __init__(self, law: AnyLaw = "ebac", procedure: Procedure | None = None) -> None:
         self.procedure = Procedure() if procedure is None else procedure
-        self._scenario = self.procedure.scenario()
+        self._scenario = on_its_observer(self.procedure.scenario(), law)
         self._law: Any = core_law(law, self._scenario)
         self.law = law if isinstance(law, str) else law_name(self._law)
         self.hand = _NoHand()
