@@ -18,7 +18,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from typer.testing import CliRunner
 
-from ebac import Trace, gastroscope, logs
+from ebac import TCADamped, Trace, gastroscope, logs
 from ebac.cli import app
 from ebac.gastroscope import Lumen, Master, Patient, Procedure, Scope, Slave, camera
 from ebac.live.gastroscopy_session import GastroscopySession
@@ -278,6 +278,21 @@ def test_a_study_pairs_physicians_and_does_not_depend_on_threads() -> None:
     assert words == ["with feedback, direct", "without", f"limit, {two.force_limit_N:g} N"]
 
 
+def test_a_study_takes_two_laws_of_a_kind_by_names_of_their_own() -> None:
+    """The second one took the place of the first in the rows."""
+    few = {"delays": [0.05], "count": 2, "procedure": Procedure(seconds=0.3)}
+    soft, hard = TCADamped(virtual_damping=1), TCADamped(virtual_damping=30)
+    with pytest.raises(ValueError, match="two laws are called 'tca-damped': give a mapping"):
+        gastroscope.gastroscopy_study([soft, hard], **few)
+    found = gastroscope.gastroscopy_study({"little": soft, "much": hard}, **few)
+    assert [(row.law, row.feedback) for row in found.rows] == [
+        ("little", False), ("little", True), ("much", False), ("much", True),
+    ]  # fmt: skip
+    assert [effect.law for effect in found.effects] == ["little", "much"]
+    alone = gastroscope.gastroscopy_study([soft], **few)
+    assert [replace(row, law="little") for row in alone.rows] == list(found.rows[:2])
+
+
 @pytest.mark.parametrize(
     ("given", "kind", "message"),
     [
@@ -292,6 +307,17 @@ def test_a_study_pairs_physicians_and_does_not_depend_on_threads() -> None:
             "threads = 0: must lie in [1, 1024]; without it there is one per usable core",
         ),
         ({"count": 2.5}, TypeError, "count = 2.5: must be a whole number"),
+        (
+            {"delays": [0.1, 0, 0.0]},
+            ValueError,
+            "delays = [0.1, 0.0, 0.0] s: 0.0 s stands there twice; give each once",
+        ),
+        (
+            {"laws": ["ebac", "direct", "ebac"]},
+            ValueError,
+            "two laws are called 'ebac': give a mapping of names to laws",
+        ),
+        ({"laws": {}}, ValueError, "no law given: a study needs at least one"),
     ],
 )
 def test_a_study_refuses_what_it_cannot_run_by_name(

@@ -758,6 +758,19 @@ def test_a_study_and_an_endurance_run_of_the_wrong_type_are_refused_by_name() ->
     for name in names:
         with pytest.raises(ValueError, match=rf"{name} = \[\]: is empty"):
             teleop.study(**{name: []})
+    for name, twice, of in (
+        ("delays", [0.1, 0.05, 0.1], r" s: 0.1 s"),
+        ("networks", ["rough", "rough"], ": 'rough'"),
+    ):
+        text = rf"{name} = {re.escape(repr(twice))}{of} stands there twice; give each once"
+        with pytest.raises(ValueError, match=text):
+            teleop.study(**{name: twice})
+    one = teleop.scheme("ebac")
+    for schemes in ([one, one.changed(buffer=0)], ["waves", "ebac", one]):
+        with pytest.raises(
+            ValueError, match=r"two schemes are called 'ebac': .*replace\(scheme, name="
+        ):
+            teleop.study(schemes)
     for contacts in ([1], "soft"):
         with pytest.raises(TypeError, match=r"study takes contacts by name, as in \{'soft': 500\}"):
             teleop.study(contacts=contacts)  # type: ignore[arg-type]

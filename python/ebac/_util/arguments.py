@@ -148,6 +148,24 @@ def several(name: str, values: Any) -> list[Any]:
     return every
 
 
+def each_once(name: str, values: Any, unit: str = "") -> list[Any]:
+    """Return a list of values as of `several`, each of which stands there once: a second row would hide the first.
+
+    Raises
+    ------
+    TypeError, ValueError
+        As by `several`, and for a value that stands there twice.
+    """
+    every = several(name, values)
+    unit = unit and f" {unit}"
+    for place, one in enumerate(every):
+        if one in every[:place]:
+            raise ValueError(
+                f"{name} = {every}{unit}: {one!r}{unit} stands there twice; give each once"
+            )
+    return every
+
+
 def keywords_only(
     names: Sequence[str], hint: Callable[[str], str] = lambda name: ""
 ) -> Callable[[Class], Class]:

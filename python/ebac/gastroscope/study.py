@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict, dataclass, replace
 from statistics import NormalDist
 from typing import Any
@@ -12,11 +12,11 @@ from numpy.typing import NDArray
 
 from ebac import _core
 from ebac._core import Device, Hand, Linear, Master
-from ebac._util.arguments import number, several, whole
+from ebac._util.arguments import each_once, number, several, whole
 from ebac._util.background import cancellable
 from ebac._util.cores import thread_count
 from ebac.gastroscope.procedure import Procedure, core_law
-from ebac.laws import AnyLaw, law_name
+from ebac.laws import AnyLaw
 from ebac.laws.tuned_laws import on_its_observer
 
 #: Difference of forces for which the power is stated [N].
@@ -134,7 +134,7 @@ def physicians(count: int, seed: int, base: Procedure) -> list[Procedure]:
 
 
 def gastroscopy_study(
-    laws: Sequence[AnyLaw] = ("direct", "ebac"),
+    laws: Sequence[AnyLaw] | Mapping[str, AnyLaw] = ("direct", "ebac"),
     *,
     delays: Sequence[float] = (0.0, 0.05, 0.1),
     count: int = 100,
@@ -147,10 +147,10 @@ def gastroscopy_study(
 
     Parameters
     ----------
-    laws : sequence of laws
-        Of the joystick.
+    laws : sequence of laws, or mapping of names to laws
+        Of the joystick; two of one kind by names of their own.
     delays : sequence of float
-        Of the line each way [s], [0, 2].
+        Of the line each way [s], [0, 2], each once.
     count : int
         Physicians, [2, 10000].
     seed : int
@@ -166,22 +166,21 @@ def gastroscopy_study(
     Raises
     ------
     ValueError
-        For a number out of its range, nothing to compare.
+        For a number out of its range, nothing to compare, two laws of one name, a delay that stands there twice.
     TypeError
         For what is no sequence or no number.
     """
-    laws, delays = (
-        several("laws", laws),
-        [number("delays", one) for one in several("delays", delays)],
-    )
+    from ebac.studies.sweeps.run import name_laws
+
+    named = name_laws(laws if isinstance(laws, Mapping) else several("laws", laws), what="a study")
+    delays = each_once("delays", [number("delays", one) for one in several("delays", delays)], "s")
     if not 2 <= whole("count", count) <= 10000:
         raise ValueError(f"count = {count}: must lie in [2, 10000] physicians")
     cores = thread_count(threads)
     base = Procedure(device=STRAIGHT) if procedure is None else procedure
-    names = [law_name(law) for law in laws]
     cells = [
         (name, law, delay, feedback)
-        for name, law in zip(names, laws, strict=True)
+        for name, law in named.items()
         for delay in delays
         for feedback in (False, True)
     ]
@@ -204,7 +203,7 @@ def gastroscopy_study(
     limit = base.lumen.patient.force_limit
     effects = [
         _effect(name, delay, runs[name, delay, False], runs[name, delay, True], seed)
-        for name in names
+        for name in named
         for delay in delays
     ]
     rows = [_row(key, found, limit) for key, found in runs.items()]

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ebac._core import STILL_SWING, Hand, Link, MinimumJerk, SlaveModel
-from ebac._util.arguments import named, require, several
+from ebac._util.arguments import each_once, named, require, several
 from ebac._util.report import report
 from ebac.teleop.run import Run, simulate
 from ebac.teleop.schemes import SCHEMES, Scheme, chosen_scheme
@@ -144,7 +144,7 @@ def study(
     Parameters
     ----------
     schemes : sequence of str or Scheme
-        Default: all.
+        Each by a name of its own; default: all.
     contacts : mapping of str to float
         Stiffness by name [N/m]; 0 is free motion.
     delays : sequence of float
@@ -161,18 +161,25 @@ def study(
     Raises
     ------
     KeyError, ValueError
-        For a scheme or network that does not exist, a value out of its range, nothing to simulate.
+        For a scheme or network that does not exist, a value out of its range, nothing to simulate; for two schemes of
+        one name, a delay or a network that stands there twice.
     TypeError
         For contacts that are no mapping, others that are no sequence.
     """
     require(contacts, Mapping, "teleop.study", "contacts by name, as in {'soft': 500}")
     if not contacts:
         raise ValueError("contacts = {}: is empty; give one at least")
-    hands, networks = several("hands", hands), several("networks", networks)
+    hands, networks = several("hands", hands), each_once("networks", networks)
     for name in networks:
         named("network", name, NETWORKS)
     chosen = tuple(chosen_scheme(one) for one in several("schemes", schemes))
-    cells = list(product(chosen, contacts.items(), networks, several("delays", delays)))
+    names = [one.name for one in chosen]
+    if twice := [name for name in names if names.count(name) > 1]:
+        raise ValueError(
+            f"two schemes are called {twice[0]!r}: give each a name of its own, as by "
+            "dataclasses.replace(scheme, name='mine')"
+        )
+    cells = list(product(chosen, contacts.items(), networks, each_once("delays", delays, "s")))
     rows = []
     for one, (contact, stiffness), network, delay in cells:
         link = Link(delay=delay, **NETWORKS[network])

@@ -70,7 +70,7 @@ def study(
         folder = to.folder("gastroscopy-study", as_json=as_json)
         with output.counting("simulating", quiet=as_json) as progress:
             found = gastroscopy_study(
-                list(laws.values()),
+                laws,
                 delays=delays,
                 count=physicians,
                 seed=seed,

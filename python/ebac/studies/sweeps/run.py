@@ -145,8 +145,8 @@ def seed_of(seed: int, index: int) -> int:
     return int(bits) >> 1
 
 
-def name_laws(laws: Laws) -> dict[str, AnyLaw]:
-    """Return the laws of a sweep by name.
+def name_laws(laws: Laws, what: str = "a sweep") -> dict[str, AnyLaw]:
+    """Return the laws of a sweep by name; `what` needs them, for messages.
 
     Raises
     ------
@@ -163,7 +163,7 @@ def name_laws(laws: Laws) -> dict[str, AnyLaw]:
             twice = next(name for name in names if names.count(name) > 1)
             raise ValueError(f"two laws are called {twice!r}: give a mapping of names to laws")
     if not named:
-        raise ValueError("no law given: a sweep needs at least one")
+        raise ValueError(f"no law given: {what} needs at least one")
     return named
 
 
