@@ -384,6 +384,32 @@ def test_a_log_is_read_back_with_units_touches_and_parameters(tmp_path: Path) ->
         assert len(Trace.load(tmp_path / f"run{suffix}")) == len(read.trace)
 
 
+@pytest.mark.parametrize("every", [1, 7, 10])
+def test_a_log_of_every_tenth_row_has_lost_none_and_names_one_that_is_lost(
+    every: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Nine of ten ticks, which nobody had kept, counted as lost."""
+    monkeypatch.setattr("ebac.logs.files.CHUNK_ROWS", 20)
+    run = gastroscope.gastroscopy("direct", Procedure(seconds=1), every=every)
+    for suffix in (".mcap", ".npz", ".csv"):
+        run.save(tmp_path / f"run{suffix}")
+        read = logs.read(tmp_path / f"run{suffix}")
+        assert (read.lost, read.gaps, len(read.trace)) == (0, [], len(run.rows["t"])), suffix
+    whole = bytearray((tmp_path / "run.mcap").read_bytes())
+    chunks, at = [], 8
+    while at < len(whole) - 9:
+        length = int.from_bytes(whole[at + 1 : at + 9], "little")
+        if whole[at] == 0x06:
+            chunks.append(at + 9 + length // 2)
+        at += 9 + length
+    whole[chunks[2]] ^= 0xFF
+    (tmp_path / "damaged.mcap").write_bytes(whole)
+    damaged = logs.read(tmp_path / "damaged.mcap")
+    assert damaged.lost == 20
+    (gap,) = damaged.gaps
+    assert gap.t == run.rows["t"][39]
+
+
 def test_a_log_has_an_event_for_each_touch_and_each_time_above_the_limit(tmp_path: Path) -> None:
     polyp = gastroscope.Polyp(place=0.2, angle=0.5)
     tender = Lumen(Patient(force_limit=0.5))
@@ -398,6 +424,8 @@ def test_a_log_has_an_event_for_each_touch_and_each_time_above_the_limit(tmp_pat
     assert run.findings["touched"] == kinds.count("touch") == 1
     assert kinds.count("limit") >= 1
     assert [event.tick for event in events] == sorted(event.tick for event in events)
+    for event in events:  # a tick names a row
+        assert event.t == read.trace["t"][read.trace["tick"] == event.tick]
 
 
 def test_a_thinned_record_keeps_the_largest_forces() -> None:

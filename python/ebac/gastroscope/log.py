@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ebac import _core
 from ebac._util import serialisation
@@ -28,9 +29,9 @@ def trace_of(run: Gastroscopy) -> Trace:
         name: ColumnInfo(name=name, unit=unit, meaning=meaning)
         for name, unit, meaning in _core._procedure_fields()
     }
-    columns["tick"] = ColumnInfo(name="tick", unit="1", meaning="number of the tick")
+    columns["tick"] = ColumnInfo(name="tick", unit="1", meaning="number of the row of the record")
     columns["fault"] = ColumnInfo(name="fault", unit="1", meaning="0, or why the loop stopped")
-    tick = np.rint(run.rows["t"] / scenario.timing.dt).astype(np.int64)
+    tick = _ticks(run)
     fault = np.zeros(len(tick), np.int32)
     fault[-1:] = int(run.findings["fault"])
     return Trace(
@@ -43,12 +44,17 @@ def trace_of(run: Gastroscopy) -> Trace:
     )
 
 
+def _ticks(run: Gastroscopy) -> NDArray[np.int64]:
+    """Return the number of each row: a log counts as lost what its numbers leave out, not what nobody has kept."""
+    return np.arange(len(run.rows["t"]), dtype=np.int64)
+
+
 def events_of(run: Gastroscopy) -> list[Event]:
     """Return touches, the first row of each time above the limit, and the end at the pylorus or by a fault."""
     from ebac.logs.events import Event, fault_name
 
     rows, limit = run.rows, run.procedure.lumen.patient.force_limit
-    tick = np.rint(rows["t"] / run.procedure.scenario().timing.dt).astype(np.int64)
+    tick = _ticks(run)
     found: list[Event] = []
 
     def note(row: int, kind: str, message: str, **values: Any) -> None:

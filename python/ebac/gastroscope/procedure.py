@@ -154,7 +154,7 @@ class Gastroscopy:
 
     @property
     def trace(self) -> Trace:
-        """The record as a trace, with `tick` and `fault`: what `ebac log` reads."""
+        """The record as a trace, with `tick`, the number of the row, and `fault`: what `ebac log` reads."""
         from ebac.gastroscope.log import trace_of
 
         return trace_of(self)
