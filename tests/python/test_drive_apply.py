@@ -189,10 +189,15 @@ def test_a_value_the_drive_refuses_stops_half_way_and_says_so(
 ) -> None:
     start = held(bus)
     drive = bus.drive(1)
-    wrong = drives.Node(id=1, profile=node.profile.replace(limits__rated_current=0.9))
+    # Without a torque constant nothing but the drive knows that this current is none of its motor.
+    limits = {"limits.rated_torque": 0.053, "limits.rated_current": 0.9, "drive.quick_stop": 1}
+    wrong = drives.Node(id=1, profile=drives.Profile(name="mine", values=limits))
     with pytest.raises(drives.NotApplied) as caught:
         drives.apply(drive, wrong, backups=shelf)
-    assert "refused writing rated_current" in str(caught.value)
+    said = str(caught.value)
+    assert "refused writing rated_current" in said
+    assert "the drive works it out from the data of its motor, 985 mA" in said
+    assert "limits.rated_current of the profile is 900 mA: correct limits.rated_current, or" in said
     assert "The drive is disabled (switch on disabled)" in str(caught.value)
     assert caught.value.left[0].startswith("rated_current")
     assert not drive.state.powered

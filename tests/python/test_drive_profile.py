@@ -78,11 +78,11 @@ def test_a_value_of_several_lines_stands_where_it_begins() -> None:
          'motor.torque_constant = "0.05": must be a number in N m/A'),
         ("torque_constant = 0.0538", "torque_constant = true", 6,
          "motor.torque_constant = true: must be a number in N m/A"),
-        ("torque_constant = 0.0538", "torque_constant = 54", 6,
-         "motor.torque_constant = 54 N m/A: must lie in [0.0179, 0.161] N m/A, near limits.rated_torque / "
-         "limits.rated_current = 0.0538 N m/A"),
-        ("rated_current = 0.985", "rated_current = 98.5", 6,
-         "motor.torque_constant = 0.0538 N m/A: must lie in [0.000179, 0.00161] N m/A"),
+        ("torque_constant = 0.0538", "torque_constant = 54", 13,
+         "limits.rated_current = 0.985 A: must be within 2 % of limits.rated_torque / motor.torque_constant = 0.053 N m "
+         "/ 54 N m/A = 0.0009815 A, the current of the rated torque, or every force is wrong; give 0.0009815, or"),
+        ("rated_current = 0.985", "rated_current = 1.01", 13,
+         "limits.rated_current = 1.01 A: must be within 2 % of"),
         ("peak_torque = 0.212", "peak_torque = 0.000012", 8,
          "motor.peak_torque = 1.2e-05 N m: the drive holds 1 raw units instead of 1.2, more than 1 % off; one unit is "
          "1e-05 N m: give 1e-05 N m, the nearest that it can hold; or, where the drive counts in smaller units, name "
@@ -97,7 +97,12 @@ def test_a_value_of_several_lines_stands_where_it_begins() -> None:
          'motor.object = "0x2384": must be "0x2383" or "0x6410"; older Copley firmware'),
         ("continuous_torque = 0.053", "continuous_torque = 0.06", 7,
          "motor.continuous_torque = 0.06 N m: differs from limits.rated_torque by more than 1 %"),
-        ("rated_current = 0.985", "", 15, "limits.max_current = 3.94 A: is written to the drive in per mille"),
+        ("rated_current = 0.985", "", 15,
+         "limits.max_current = 3.94 A: is written to the drive in per mille of limits.rated_current, which is not given: "
+         "give limits.rated_current = 0.9851, which is"),
+        ("max_current = 3.94", "max_current = 200.0", 15,
+         "limits.max_current = 200 A: is written to the drive in per mille of limits.rated_current, at most 65535: must "
+         "be at most 64.55 A"),
         ('mode = "cyclic synchronous torque"', 'mode = "profile torque"', 18,
          "torque.mode = 'profile torque': profile torque ramps by torque.slope: give torque.slope, steep"),
         ('mode = "cyclic synchronous torque"', "mode = 10", 18,
@@ -257,7 +262,9 @@ def test_every_profile_of_the_package_is_right_and_fits_a_bus(name: str) -> None
 
 def test_a_node_changes_keys_of_its_profile_and_no_other(tmp_path: Path) -> None:
     file = tmp_path / "net.toml"
-    text = NETWORK.replace("id = 2", "id = 2\nmotor.torque_constant = 0.06")
+    text = NETWORK.replace(
+        "id = 2", "id = 2\nmotor.torque_constant = 0.06\nlimits.rated_current = 0.8833"
+    )
     file.write_text(text, encoding="utf-8")
     first, second = drives.load(file).nodes
     assert first.profile.values["motor.torque_constant"] == 0.0538
@@ -272,7 +279,7 @@ def test_a_node_changes_keys_of_its_profile_and_no_other(tmp_path: Path) -> None
 
 def test_a_profile_in_python_is_checked_as_one_in_a_file() -> None:
     profile = drives.load("copley-accelnet", nodes=[1]).nodes[0].profile
-    changed = profile.replace(motor__torque_constant=0.06)
+    changed = profile.replace(motor__torque_constant=0.06, limits__rated_current=0.8833)
     assert changed.values["motor.torque_constant"] == 0.06
     with pytest.raises(drives.ProfileError, match=r"motor.torque_constant = -1 N m/A: must lie in"):
         profile.replace(motor__torque_constant=-1)
@@ -486,6 +493,7 @@ def test_a_small_motor_is_held_in_the_units_of_the_drives_own_object(
     text = read_source("maxon-epos4").text
     path = tmp_path / "small.toml"
     small = text.replace("rated_torque = 0.052993", f"rated_torque = {torque}", 1)
+    small = small.replace("rated_current = 0.985", f"rated_current = {torque / 0.025:g}", 1)
     path.write_text(small.replace("torque_constant = 0.0538", "torque_constant = 0.025", 1))
     held = {
         one.object.where: one.value for one in drives.load(path, nodes=[1]).nodes[0].profile.objects

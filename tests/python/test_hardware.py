@@ -10,6 +10,7 @@ import sys
 import threading
 import time
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 from tempfile import TemporaryFile
 from typing import Any
@@ -366,6 +367,20 @@ def test_a_bus_that_cannot_carry_it_is_refused_before_it_is_opened() -> None:
     fast = configuration(timing=ebac.Timing(dt=2e-4), interface="socketcan", channel="nobody0")
     with pytest.raises(drives.ProfileError, match="%"):
         ebac.Device.open(fast)
+
+
+def test_what_simulated_drives_refuse_names_the_times_that_no_file_has() -> None:
+    known = configuration()
+    profile = known.drives.nodes[0].profile
+    values = {**profile.values, "limits.rated_current": 0.9}
+    for name in ("motor.torque_constant", "limits.max_current"):
+        del values[name]
+    wrong = replace(known.drives.nodes[0], profile=replace(profile, values=values))
+    nodes = (wrong, *known.drives.nodes[1:])
+    with pytest.raises(drives.NotApplied, match="985 mA, and limits.rated_current") as caught:
+        ebac.Device.open(known.replace(drives=replace(known.drives, nodes=nodes)), simulate=True)
+    (note,) = caught.value.__notes__
+    assert "sync_period at least 10 ms, a watch over the loop at least 200 ms" in note
 
 
 def test_a_simulated_hand_may_wait_for_power() -> None:

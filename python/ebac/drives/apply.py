@@ -8,6 +8,7 @@ from itertools import groupby
 from pathlib import Path
 
 from ebac._util.progress import Progress
+from ebac.drives import read_only
 from ebac.drives.aborts import READ_ONLY
 from ebac.drives.backup import Backups
 from ebac.drives.drive import Drive
@@ -283,8 +284,11 @@ def _write(drive: Drive, step: Write) -> None:
         if step.optional:
             return
         # Some drives work out rated torque and current from the motor data, and let nobody write them.
-        if error.code != READ_ONLY or drive.sdo.upload(step.object) != step.data:
+        if error.code != READ_ONLY:
             raise
+        held = drive.sdo.upload(step.object)
+        if held != step.data:
+            raise read_only.refused(error, step.object, held=held, wanted=step.data) from error
 
 
 def _after(drive: Drive) -> str:

@@ -64,12 +64,15 @@ class NoAnswer(DriveError):
 
 
 class Refused(DriveError):
-    """A drive refused to read or write an object: an SDO abort (CiA 301)."""
+    """A drive refused to read or write an object: an SDO abort (CiA 301).
 
-    def __init__(self, node: int, obj: Object, doing: str, code: int) -> None:
+    `remedy` replaces what is to be done about the abort code.
+    """
+
+    def __init__(self, node: int, obj: Object, doing: str, code: int, remedy: str = "") -> None:
         super().__init__(
             f"node {node} refused {doing} {obj}: {aborts.meaning(code)} (0x{code:08X}); "
-            f"{aborts.remedy(code)}",
+            f"{remedy or aborts.remedy(code)}",
             node=node,
         )
         self.object = obj

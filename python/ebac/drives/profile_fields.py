@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from math import sqrt
 from typing import TypeAlias
 
 #: What a key of a profile may hold.
@@ -190,8 +191,10 @@ BY_NAME: dict[str, Key] = {key.name: key for key in KEYS}
 Rule: TypeAlias = tuple[
     Callable[[Mapping[str, Value]], bool], str, str | Callable[[Mapping[str, Value]], str]
 ]
-#: How far a torque constant may be from rated torque over rated current: a drive may mean peak or effective amperes.
-_FAR = 3.0
+#: Share by which a rated current may differ from rated torque over torque constant: all three are rounded.
+_ROUNDED = 0.02
+#: Factors by which the two differ where one of them is in other amperes: peak or effective ones, or those of three phases.
+_OTHER_AMPERES = (1.0, sqrt(2), 1.5, sqrt(3), sqrt(6))
 
 
 def _number(values: Mapping[str, Value], name: str) -> float:
@@ -206,27 +209,33 @@ def _same_torque(values: Mapping[str, Value]) -> bool:
     return abs(motor - rated) <= 0.01 * rated
 
 
-def _constant_by_rating(values: Mapping[str, Value]) -> float | None:
-    """Return rated torque over rated current [N m/A]; None where one is not given."""
-    both = ("limits.rated_torque", "limits.rated_current")
+def _current_by_torque(values: Mapping[str, Value]) -> float | None:
+    """Return rated torque over torque constant [A]; None where one is not given."""
+    both = ("limits.rated_torque", "motor.torque_constant")
     if not all(name in values for name in both):
         return None
     return _number(values, both[0]) / _number(values, both[1])
 
 
-def _near_rating(values: Mapping[str, Value]) -> bool:
-    rating = _constant_by_rating(values)
-    if rating is None or "motor.torque_constant" not in values:
+def _same_current(values: Mapping[str, Value]) -> bool:
+    current = _current_by_torque(values)
+    if current is None or "limits.rated_current" not in values:
         return True
-    return rating / _FAR <= _number(values, "motor.torque_constant") <= rating * _FAR
+    ratio = _number(values, "limits.rated_current") / current
+    return any(
+        abs(ratio**sign / factor - 1) <= _ROUNDED for factor in _OTHER_AMPERES for sign in (1, -1)
+    )
 
 
-def _not_near_rating(values: Mapping[str, Value]) -> str:
-    rating = _constant_by_rating(values) or 0.0
+def _other_current(values: Mapping[str, Value]) -> str:
+    current = _current_by_torque(values) or 0.0
+    torque, constant = (values[n] for n in ("limits.rated_torque", "motor.torque_constant"))
+    # A data sheet's nominal current also drives the motor's own friction, so that it is some per cent more.
     return (
-        f"must lie in [{rating / _FAR:.3g}, {rating * _FAR:.3g}] N m/A, near limits.rated_torque / "
-        f"limits.rated_current = {rating:.3g} N m/A, or every force is wrong; {_SHEET} (1 mN m/A is 0.001 N m/A), and "
-        "correct the wrong one of the three"
+        f"must be within {100 * _ROUNDED:g} % of limits.rated_torque / motor.torque_constant = {torque:g} N m / "
+        f"{constant:g} N m/A = {current:.4g} A, the current of the rated torque, or every force is wrong; give "
+        f"{current:.4g}, or correct the wrong one of the other two: {_SHEET} (1 mN m is 0.001 N m, 1 mN m/A is "
+        "0.001 N m/A)"
     )
 
 
@@ -240,17 +249,29 @@ def _above_rated(kind: str) -> Callable[[Mapping[str, Value]], bool]:
     return holds
 
 
+def _no_max_current(values: Mapping[str, Value]) -> str:
+    per_mille = "is written to the drive in per mille of limits.rated_current, "
+    if (rated := values.get("limits.rated_current")) is not None:
+        most = 65.535 * float(rated)
+        return f"{per_mille}at most 65535: must be at most {most:.4g} A; give less, or a right limits.rated_current"
+    current = _current_by_torque(values)
+    found = "" if current is None else f" = {current:.4g}"
+    return (
+        f"{per_mille}which is not given: give limits.rated_current{found}, which is limits.rated_torque / "
+        "motor.torque_constant (a drive that works it out from these two takes the profile where it is the same), or "
+        "leave out limits.max_current as well"
+    )
+
+
 RULES: tuple[Rule, ...] = (
     (_same_torque, "motor.continuous_torque",
      "differs from limits.rated_torque by more than 1 %: a torque in per mille would mean two things; "
      "give both the same value"),
-    (_near_rating, "motor.torque_constant", _not_near_rating),
+    (_same_current, "limits.rated_current", _other_current),
     (_above_rated("torque"), "limits.max_torque",
      "is written to the drive in per mille of limits.rated_torque, at most 65535: give limits.rated_torque, "
      "or less"),
-    (_above_rated("current"), "limits.max_current",
-     "is written to the drive in per mille of limits.rated_current, at most 65535: give "
-     "limits.rated_current, or less"),
+    (_above_rated("current"), "limits.max_current", _no_max_current),
     (lambda v: "torque.slope" not in v or "limits.rated_torque" in v, "torque.slope",
      "is written to the drive in per mille of limits.rated_torque per second: give limits.rated_torque"),
     (lambda v: v["torque.mode"] != "profile torque" or "torque.slope" in v, "torque.mode",

@@ -7,7 +7,7 @@ from contextlib import contextmanager, suppress
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from ebac.drives import Backups, DriveBus, DriveError, Node, apply, verify
+from ebac.drives import Backups, DriveBus, DriveError, Node, NotApplied, apply, verify
 from ebac.drives.state import State
 from ebac.drives.who_answers import naming_who_answers
 
@@ -88,9 +88,24 @@ def set_up(
             _rest(drive)
             drive.check_sheet()
             if write:
-                apply(drive, node, backups=backups)
+                with _with_longer_times(backend):
+                    apply(drive, node, backups=backups)
             else:
                 verify(drive, node)
+
+
+@contextmanager
+def _with_longer_times(backend: Backend) -> Iterator[None]:
+    """Note on an error that lists what was written to simulated drives that some of it is in no profile."""
+    try:
+        yield
+    except NotApplied as error:
+        if backend.aim is not None:
+            error.add_note(
+                f"Simulated drives get longer times than their profile has: sync_period at least {1e3 * _SHORTEST:g} ms, "
+                f"a watch over the loop at least {1e3 * _SYNCS * _SHORTEST:g} ms"
+            )
+        raise
 
 
 def start(
