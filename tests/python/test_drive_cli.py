@@ -54,6 +54,25 @@ def said(result: Any) -> str:
     return " ".join(re.sub(r"[│╭╮╰╯─]", " ", result.output).split())
 
 
+@pytest.mark.parametrize(
+    ("old", "new", "message"),
+    [
+        ("max_torque = 0.212", "max_torque = 0.3",
+         "node 1 of mine.toml: limits.max_torque = 0.3 N m: 5.66 times limits.rated_torque = 0.053 N m; usual are "
+         "at most 5 times"),
+    ],
+)  # fmt: skip
+def test_plan_notes_what_of_a_profile_is_likely_not_meant(
+    drive: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, old: str, new: str, message: str
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    text = drive("profile", "copley-accelnet").stdout
+    Path("mine.toml").write_text(text.replace(old, new, 1), encoding="utf-8")
+    noted = drive("plan", "mine.toml", "--node", "1")
+    assert f"Note: {message}" in " ".join(noted.stderr.split())
+    assert "Note:" not in drive("plan", "joystick").stderr
+
+
 @pytest.mark.parametrize("command", COMMANDS)
 def test_every_command_teaches_by_an_example(command: str) -> None:
     text = CliRunner().invoke(app, ["drive", command, "--help"]).output

@@ -79,8 +79,8 @@ def test_a_value_of_several_lines_stands_where_it_begins() -> None:
         ("torque_constant = 0.0538", "torque_constant = true", 6,
          "motor.torque_constant = true: must be a number in N m/A"),
         ("torque_constant = 0.0538", "torque_constant = 54", 13,
-         "limits.rated_current = 0.985 A: must be within 2 % of limits.rated_torque / motor.torque_constant = 0.053 N m "
-         "/ 54 N m/A = 0.0009815 A, the current of the rated torque, or every force is wrong; give 0.0009815, or"),
+         "limits.rated_current = 0.985 A: must be within 2 % of limits.rated_torque / motor.torque_constant = 0.053 N "
+         "m / 54 N m/A = 0.0009815 A, the current of the rated torque, or every force is wrong; give 0.0009815, or"),
         ("rated_current = 0.985", "rated_current = 1.01", 13,
          "limits.rated_current = 1.01 A: must be within 2 % of"),
         ("peak_torque = 0.212", "peak_torque = 0.000012", 8,
@@ -98,11 +98,11 @@ def test_a_value_of_several_lines_stands_where_it_begins() -> None:
         ("continuous_torque = 0.053", "continuous_torque = 0.06", 7,
          "motor.continuous_torque = 0.06 N m: differs from limits.rated_torque by more than 1 %"),
         ("rated_current = 0.985", "", 15,
-         "limits.max_current = 3.94 A: is written to the drive in per mille of limits.rated_current, which is not given: "
-         "give limits.rated_current = 0.9851, which is"),
+         "limits.max_current = 3.94 A: is written to the drive in per mille of limits.rated_current, which is not "
+         "given: give limits.rated_current = 0.9851, which is"),
         ("max_current = 3.94", "max_current = 200.0", 15,
-         "limits.max_current = 200 A: is written to the drive in per mille of limits.rated_current, at most 65535: must "
-         "be at most 64.55 A"),
+         "limits.max_current = 200 A: is written to the drive in per mille of limits.rated_current, at most 65535: "
+         "must be at most 64.55 A"),
         ('mode = "cyclic synchronous torque"', 'mode = "profile torque"', 18,
          "torque.mode = 'profile torque': profile torque ramps by torque.slope: give torque.slope, steep"),
         ('mode = "cyclic synchronous torque"', "mode = 10", 18,

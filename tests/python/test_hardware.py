@@ -377,7 +377,7 @@ def test_what_simulated_drives_refuse_names_the_times_that_no_file_has() -> None
         del values[name]
     wrong = replace(known.drives.nodes[0], profile=replace(profile, values=values))
     nodes = (wrong, *known.drives.nodes[1:])
-    with pytest.raises(drives.NotApplied, match="985 mA, and limits.rated_current") as caught:
+    with pytest.raises(drives.NotApplied, match="from the data of its motor, 985 mA") as caught:
         ebac.Device.open(known.replace(drives=replace(known.drives, nodes=nodes)), simulate=True)
     (note,) = caught.value.__notes__
     assert "sync_period at least 10 ms, a watch over the loop at least 200 ms" in note

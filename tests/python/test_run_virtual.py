@@ -262,6 +262,20 @@ def test_the_limits_of_the_drives_count_on_a_virtual_clock_too(
     assert doubtful_run.doubts(known) == []
 
 
+def test_drives_that_let_through_more_than_the_motor_is_to_take_are_noted() -> None:
+    known = Configuration.load(EXAMPLE)
+    device = known.device.replace(drive=known.device.drive.replace(peak_ratio=2.0))
+    low = known.replace(device=device, limits=ebac.Limits.of(device))
+    said = doubtful_run.doubts(low)
+    keys = ["limits.max_torque", "limits.max_current", "motor.peak_torque"]
+    assert [text.partition(": ")[2].partition(" = ")[0] for text in said] == keys
+    assert said[0] == (
+        "nodes 1, 2 of the built-in joystick: limits.max_torque = 0.212 N m, more than the peak of the device, 0.106 N "
+        "m (device.drive.peak_ratio 2 x the motor's rating): the drive does not protect this motor; give at most 0.106 "
+        "in the profile, or a higher peak_ratio where the motor takes more"
+    )
+
+
 def test_limits_that_hardly_protect_are_noted() -> None:
     known = Configuration.load(EXAMPLE)
     loose = known.replace(limits=known.limits.replace(speed=100.0, end=1.0, pause=0.2))

@@ -195,6 +195,20 @@ def test_the_doctor_finds_the_limits_that_a_run_refuses(tmp_path: Path) -> None:
     assert not [row for row in rows if row["what"].startswith("limits.")]
 
 
+def test_the_doctor_finds_drives_that_let_through_more_than_their_motor_takes(
+    tmp_path: Path,
+) -> None:
+    file = tmp_path / "joystick.toml"
+    file.write_text(EXAMPLE.read_text() + "[device.drive]\npeak_ratio = 2.0\n")
+    rows = json.loads(CliRunner().invoke(app, ["doctor", str(file), "--json"]).stdout)["rows"]
+    found = {row["what"]: row for row in rows if row["what"].startswith("the drives' ")}
+    assert len(found) == 3
+    largest = found["the drives' limits.max_torque"]
+    assert largest["verdict"] == "fair"
+    assert "nodes 1, 2 of the built-in joystick: limits.max_torque = 0.212 N m" in largest["found"]
+    assert largest["remedy"].startswith("give at most 0.106 in the profile")
+
+
 @pytest.mark.parametrize(
     ("share", "verdict"), [(0.78, "good"), (0.7, "fair"), (0.5, "fair"), (0.4, "bad")]
 )

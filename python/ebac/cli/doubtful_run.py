@@ -41,6 +41,7 @@ def doubts(known: Configuration) -> list[str]:
         *_weight_of_the_joystick(known),
         *_edge_behind_the_stops(known),
         *_weak_drives(known),
+        *_strong_drives(known),
         *_loose_limits(known),
         *_sensor_of_the_device_alone(known),
         *_other_device_of_the_law(known),
@@ -141,3 +142,10 @@ def _weak_drives(known: Configuration) -> list[str]:
         f"the handle, less than limits.peak_current = {known.limits.peak_current:.4g} A, and the law does not know it; "
         f"lower limits.peak_current (and continuous_current) to {allowed:.4g}, or raise the limit of the profile"
     ]
+
+
+def _strong_drives(known: Configuration) -> list[str]:
+    from ebac.hardware.drive_limits import above_peak
+
+    found = above_peak(known.device, known.drives)
+    return [f"{text}; {remedy}" for _, text, remedy in found]

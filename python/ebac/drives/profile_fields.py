@@ -193,7 +193,7 @@ Rule: TypeAlias = tuple[
 ]
 #: Share by which a rated current may differ from rated torque over torque constant: all three are rounded.
 _ROUNDED = 0.02
-#: Factors by which the two differ where one of them is in other amperes: peak or effective ones, or those of three phases.
+#: Factors by which the two differ where one of them is in other amperes: peak, effective, those of three phases.
 _OTHER_AMPERES = (1.0, sqrt(2), 1.5, sqrt(3), sqrt(6))
 
 

@@ -21,7 +21,7 @@ def refused(error: Refused, obj: Object, *, held: bytes, wanted: bytes) -> Refus
     own, asked = (obj.show(obj.decode(data)) for data in (held, wanted))
     key = next(one.name for one in KEYS if one.sets == obj.name)
     remedy = (
-        f"the drive works it out from the data of its motor, {own}, and {key} of the profile is {asked}: correct {key}, "
-        f"or {others}"
+        f"the drive works it out from the data of its motor, {own}, and {key} of the profile is {asked}: "
+        f"correct {key}, or {others}"
     )
     return Refused(error.node, obj, "writing", error.code, remedy)

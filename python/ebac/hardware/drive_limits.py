@@ -16,6 +16,8 @@ if TYPE_CHECKING:
 
 #: Share by which a drive may allow less than the device: both are rounded.
 ROUNDING = 2e-3
+#: Share by which it may allow more: the rated torques of device and profile may differ by 1 %.
+_SAME_PEAK = 0.02
 
 _LIMITS = ("limits.max_torque", "limits.max_current")
 
@@ -43,6 +45,47 @@ def allowed_ratio(network: Network) -> tuple[float, str]:
                 given = BY_NAME[name].show(node.profile.values[name])
                 least, key = ratio, f"node {node.id}: {name} = {given}"
     return least, key
+
+
+def above_peak(device: Device, network: Network) -> list[tuple[str, str, str]]:
+    """Return each limit of the drives that lets through more than the device's motor is to take.
+
+    Parameters
+    ----------
+    device : Device
+        Its peak is `drive.peak_ratio` times the rated torque of its motor.
+    network : Network
+        The drives, whose own limits hold where the loop is wrong.
+
+    Returns
+    -------
+    list of (key, sentence, remedy)
+        One for all nodes with the same value.
+    """
+    motor = device.motor
+    torque = device.drive.peak_ratio * motor.rated_torque
+    current = device.drive.peak_current(motor)
+    alike: dict[tuple[str, float, float], list[str]] = {}
+    for name, peak in (
+        ("limits.max_torque", torque),
+        ("limits.max_current", current),
+        ("motor.peak_torque", torque),
+    ):
+        for node in network.nodes:
+            value = node.profile.values.get(name)
+            if value is not None and float(value) > peak * (1 + _SAME_PEAK):
+                alike.setdefault((name, float(value), peak), []).append(str(node.id))
+    ratio = f"device.drive.peak_ratio {device.drive.peak_ratio:g} x the motor's rating"
+    found = []
+    for (name, value, peak), ids in alike.items():
+        key, nodes = BY_NAME[name], f"{'node' if len(ids) == 1 else 'nodes'} {', '.join(ids)}"
+        sentence = (
+            f"{nodes} of {network.name}: {name} = {key.show(value)}, more than the peak of the device, {peak:.4g} "
+            f"{key.unit} ({ratio}): the drive does not protect this motor"
+        )
+        remedy = f"give at most {peak:.4g} in the profile, or a higher peak_ratio where the motor takes more"
+        found.append((name, sentence, remedy))
+    return found
 
 
 def held_back(device: Device, network: Network) -> Device:

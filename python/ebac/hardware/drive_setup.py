@@ -102,8 +102,8 @@ def _with_longer_times(backend: Backend) -> Iterator[None]:
     except NotApplied as error:
         if backend.aim is not None:
             error.add_note(
-                f"Simulated drives get longer times than their profile has: sync_period at least {1e3 * _SHORTEST:g} ms, "
-                f"a watch over the loop at least {1e3 * _SYNCS * _SHORTEST:g} ms"
+                f"Simulated drives get longer times than their profile has: sync_period at least {1e3 * _SHORTEST:g} "
+                f"ms, a watch over the loop at least {1e3 * _SYNCS * _SHORTEST:g} ms"
             )
         raise
 

@@ -13,7 +13,7 @@ import typer
 
 from ebac._util.arguments import unknown
 from ebac.cli import interrupts, output
-from ebac.cli.drive import without_can
+from ebac.cli.drive import doubtful_profile, without_can
 
 if TYPE_CHECKING:
     from ebac.drives import Drive, DriveBus, Network, Sheet
@@ -271,6 +271,7 @@ def network_of(profile: str, node: list[int] | None, where: BusOptions) -> Netwo
         library.check_stall(network)
         if (sheet := sheet_of(where)) is not None:
             library.check_sheet(network, sheet)
+    doubtful_profile.note(network)
     return network
 
 

@@ -39,8 +39,9 @@ def doctor(
 
     Prints how to fix each one. Kernel, clock, limits and CAN interfaces are checked; nothing is changed. "fair" means
     that some ticks will be late, that answers on the bus may be, that the drives may hold another SYNC period than the
-    run writes, or that a drive whose loop stalls can throw the handle to the end of the workspace, "bad" that a control
-    loop cannot run as requested or that `ebac run` refuses a limit, with exit code 1.
+    run writes, that a drive lets through more than its motor is to take, or that one whose loop stalls can throw the
+    handle to the end of the workspace, "bad" that a control loop cannot run as requested or that `ebac run` refuses a
+    limit, with exit code 1.
 
     **Examples**
 
@@ -59,6 +60,7 @@ def doctor(
             findings = [
                 *findings,
                 *_rating(configuration),
+                *_drive_limits(configuration),
                 *_stalls(configuration),
                 *_sync(configuration),
                 _bus(configuration),
@@ -155,6 +157,19 @@ def _rating(path: Path) -> list[Finding]:
             remedy=rating.remedy(name),
         )
         for name, text in rating.beyond_rating(Configuration.load(path))
+    ]
+
+
+def _drive_limits(path: Path) -> list[Finding]:
+    """Return each limit of a drive that lets through more than the motor of a configuration is to take."""
+    from ebac.hardware.configuration import Configuration
+    from ebac.hardware.drive_limits import above_peak
+    from ebac.realtime import Finding
+
+    known = Configuration.load(path)
+    return [
+        Finding(what=f"the drives' {key}", found=text, verdict="fair", remedy=remedy)
+        for key, text, remedy in above_peak(known.device, known.drives)
     ]
 
 

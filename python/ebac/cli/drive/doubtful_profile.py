@@ -1,0 +1,53 @@
+"""Numbers of a drive's profile that are possible, but more likely not meant."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+from ebac.cli import output
+
+if TYPE_CHECKING:
+    from ebac.drives import Network
+    from ebac.drives.profile import Profile
+
+#: Limits of a drive, and the rated value of each.
+_OF_RATED = (
+    ("limits.max_torque", "limits.rated_torque"),
+    ("limits.max_current", "limits.rated_current"),
+    ("motor.peak_torque", "limits.rated_torque"),
+)
+#: How many times the rated value makes a limit doubtful: the drive of the paper's motor gives 4 times.
+PEAK = 5.0
+
+
+def note(network: Network) -> None:
+    """Print on stderr what of the profiles of a network is likely not meant."""
+    for text in doubts(network):
+        output.note(text)
+
+
+def doubts(network: Network) -> list[str]:
+    """Return a sentence for each number that is likely not meant, with the remedy and the nodes it is of."""
+    found: dict[str, list[str]] = {}
+    for node in network.nodes:
+        for text in _above_rated(node.profile):
+            found.setdefault(text, []).append(str(node.id))
+    return [
+        f"{'node' if len(ids) == 1 else 'nodes'} {', '.join(ids)} of {network.name}: {text}"
+        for text, ids in found.items()
+    ]
+
+
+def _above_rated(profile: Profile) -> Iterator[str]:
+    from ebac.drives.profile_fields import BY_NAME
+
+    for name, per in _OF_RATED:
+        value, rated = profile.values.get(name), profile.values.get(per)
+        if value is None or rated is None or float(value) <= PEAK * float(rated):
+            continue
+        yield (
+            f"{name} = {BY_NAME[name].show(value)}: {float(value) / float(rated):.3g} times {per} = "
+            f"{BY_NAME[per].show(rated)}; usual are at most {PEAK:g} times. It must be no more than the motor takes, "
+            f"device.drive.peak_ratio (4 for the joystick) times {per}: lower it, or correct {per}"
+        )
