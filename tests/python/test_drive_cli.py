@@ -60,6 +60,9 @@ def said(result: Any) -> str:
         ("max_torque = 0.212", "max_torque = 0.3",
          "node 1 of mine.toml: limits.max_torque = 0.3 N m: 5.66 times limits.rated_torque = 0.053 N m; usual are "
          "at most 5 times"),
+        ("event = 0.005", "event = 5",
+         "node 1 of mine.toml: pdo.rpdo1.event = 5 s: for so long the drive waits for the next one from the loop; "
+         "usual are at most 0.1 s. The key is in s: 5 ms is 0.005 s."),
     ],
 )  # fmt: skip
 def test_plan_notes_what_of_a_profile_is_likely_not_meant(

@@ -19,6 +19,8 @@ _OF_RATED = (
 )
 #: How many times the rated value makes a limit doubtful: the drive of the paper's motor gives 4 times.
 PEAK = 5.0
+#: How long a drive may wait for a torque [s]: a loop sends a thousand or so a second.
+WAIT = 0.1
 
 
 def note(network: Network) -> None:
@@ -31,7 +33,7 @@ def doubts(network: Network) -> list[str]:
     """Return a sentence for each number that is likely not meant, with the remedy and the nodes it is of."""
     found: dict[str, list[str]] = {}
     for node in network.nodes:
-        for text in _above_rated(node.profile):
+        for text in (*_above_rated(node.profile), *_long_waits(node.profile)):
             found.setdefault(text, []).append(str(node.id))
     return [
         f"{'node' if len(ids) == 1 else 'nodes'} {', '.join(ids)} of {network.name}: {text}"
@@ -51,3 +53,12 @@ def _above_rated(profile: Profile) -> Iterator[str]:
             f"{BY_NAME[per].show(rated)}; usual are at most {PEAK:g} times. It must be no more than the motor takes, "
             f"device.drive.peak_ratio (4 for the joystick) times {per}: lower it, or correct {per}"
         )
+
+
+def _long_waits(profile: Profile) -> Iterator[str]:
+    for pdo in profile.pdos:
+        if not pdo.sent and pdo.event > WAIT:
+            yield (
+                f"pdo.{pdo.name}.event = {pdo.event:g} s: for so long the drive waits for the next one from the loop; "
+                f"usual are at most {WAIT:g} s. The key is in s: 5 ms is 0.005 s"
+            )
