@@ -649,6 +649,38 @@ def test_specs_takes_the_configuration_of_a_run_and_says_what_its_device_starts_
     assert "gravity = 9.81 m/s^2 is that of the joystick" in noted
 
 
+@pytest.fixture
+def own_motor() -> Path:
+    """The configuration of a device with another motor than the built-in drives are for."""
+    file = Path("mine.toml")
+    motor = "[device.motor]\ntorque_constant = 0.0255\nrated_torque = 0.030\n\n"
+    text = (Path(__file__).parents[2] / "examples" / "joystick.toml").read_text()
+    file.write_text(text.replace("[device.kinematics]", f"{motor}[device.kinematics]", 1))
+    return file
+
+
+@pytest.mark.parametrize("words", ["specs --scenario mine.toml", "laws --scenario mine.toml"])
+def test_a_device_is_looked_at_before_its_drives_are_set_up(own_motor: Path, words: str) -> None:
+    noted = " ".join(ebac_command(*words.split()).stderr.split())
+    assert noted.count("are for different motors") == 1
+    assert "does not protect" not in noted
+
+
+def test_all_that_is_of_another_motor_is_listed_with_the_way_to_change_it(own_motor: Path) -> None:
+    ran = CliRunner().invoke(app, ["run", str(own_motor), "--virtual"])
+    assert ran.exit_code == 2
+    refused = " ".join(ran.stderr.split())
+    for part in (
+        "bus.drives: the built-in joystick and the device are for different motors.",
+        "nodes 1, 2: motor.torque_constant = 0.0538 N m/A, the device motor.torque_constant = 0.0255 N m/A; nodes 1, "
+        "2: limits.rated_torque = 0.053 N m, the device motor.rated_torque = 0.03 N m.",
+        "`ebac drive profile joystick > my-network.toml` and `ebac drive profile copley-accelnet > "
+        "my-drive.toml` write them to files",
+        'profile = "my-drive.toml" in the network file, and drives = "my-network.toml" in [bus]',
+    ):
+        assert part in refused
+
+
 def test_the_specs_of_a_file_that_is_not_there_are_refused_as_those_of_a_scenario() -> None:
     result = CliRunner().invoke(app, ["specs", "--scenario", "none.toml"])
     assert result.exit_code != 0

@@ -160,7 +160,11 @@ def test_an_empty_one_is_the_paper_s_joystick() -> None:
             "give numbers a decimal point: 0.5",
         ),
         ("[device.motor]\ntorque_constant = 0.06\n", None, "motor.torque_constant = 0.0538"),
-        ("[device.motor]\ntorque_constant = 0.06\n", None, "node 1 of the built-in joystick has"),
+        (
+            "[device.motor]\ntorque_constant = 0.06\n",
+            None,
+            "the built-in joystick and the device are for different motors",
+        ),
         ("[sensor]\nhost = '10.0.0.1'\nport = 70000\n", 3, "port = 70000"),
         ("[sensor]\ncounts_per_forc = 1.0\n", 2, "did you mean 'counts_per_force'"),
         (

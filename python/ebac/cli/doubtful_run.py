@@ -5,7 +5,14 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ebac.cli import doubtful_device, doubtful_law, doubtful_sensor, doubtful_wall, output
+from ebac.cli import (
+    doubtful_device,
+    doubtful_drives,
+    doubtful_law,
+    doubtful_sensor,
+    doubtful_wall,
+    output,
+)
 
 if TYPE_CHECKING:
     from ebac.hardware import Configuration
@@ -40,8 +47,7 @@ def doubts(known: Configuration) -> list[str]:
         *_default_wall(known),
         *_weight_of_the_joystick(known),
         *_edge_behind_the_stops(known),
-        *_weak_drives(known),
-        *_strong_drives(known),
+        *doubtful_drives.doubts(known),
         *_loose_limits(known),
         *_sensor_of_the_device_alone(known),
         *_other_device_of_the_law(known),
@@ -127,25 +133,3 @@ def _loose_limits(known: Configuration) -> list[str]:
         "hardly protects: lower it, or leave it out"
         for name, value, default, unit in loose
     ]
-
-
-def _weak_drives(known: Configuration) -> list[str]:
-    from ebac.hardware.drive_limits import ROUNDING, allowed_ratio
-
-    motor = known.device.motor
-    ratio, key = allowed_ratio(known.drives)
-    allowed = ratio * motor.current(motor.rated_torque)
-    if allowed >= known.limits.peak_current * (1 - ROUNDING):
-        return []
-    return [
-        f"{key} in {known.drives.name}: the drive lets through {allowed:.4g} A, {known.device.force(allowed):.3g} N at "
-        f"the handle, less than limits.peak_current = {known.limits.peak_current:.4g} A, and the law does not know it; "
-        f"lower limits.peak_current (and continuous_current) to {allowed:.4g}, or raise the limit of the profile"
-    ]
-
-
-def _strong_drives(known: Configuration) -> list[str]:
-    from ebac.hardware.drive_limits import above_peak
-
-    found = above_peak(known.device, known.drives)
-    return [f"{text}; {remedy}" for _, text, remedy in found]

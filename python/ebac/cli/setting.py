@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ebac import presets
-from ebac.cli import by_name, by_option, doubtful_device, doubtful_wall, output
+from ebac.cli import by_name, by_option, doubtful_device, doubtful_drives, doubtful_wall, output
 
 if TYPE_CHECKING:
     from ebac._core import Device, Hand, Timing
@@ -47,7 +47,9 @@ def device_base(file: Path | None) -> Scenario:
         return base_scenario(file)
     from ebac.hardware import Configuration
 
-    found = Configuration.load(file).scenario()
+    known = Configuration.load(file, device_alone=True)
+    doubtful_drives.note(file, known)
+    found = known.scenario()
     doubtful_device.tell(file, found.device)
     doubtful_wall.tell_file(file, found.environment)
     return found

@@ -21,6 +21,8 @@ from ebac.drives.toml_positions import Source
 
 #: Bit rate of a bus where none is given [bit/s].
 _RATE = 1_000_000
+#: How the name of a network begins that comes with the package.
+BUILT_IN = "the built-in "
 
 
 @plain_constructor
@@ -114,7 +116,7 @@ def load(name: str | Path, *, nodes: Sequence[int] = (), bitrate: int | None = N
             raise ProfileError(f"node = {node}: must lie in [1, 127]")
     if bitrate is not None and (wrong := _no_rate(bitrate)):
         raise ProfileError(f"bitrate = {wrong}")
-    called = f"the built-in {name}" if str(name) in builtin() else source.name
+    called = f"{BUILT_IN}{name}" if str(name) in builtin() else source.name
     if "node" in source.table:
         network = _network(source, called, bitrate)
         return _only(network, nodes)

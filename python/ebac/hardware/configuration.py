@@ -145,8 +145,15 @@ class Configuration:
         refuse_python(self.environment)
 
     @classmethod
-    def load(cls, path: str | Path) -> Self:
+    def load(cls, path: str | Path, *, device_alone: bool = False) -> Self:
         """Read a configuration file.
+
+        Parameters
+        ----------
+        path : str or Path
+            The file.
+        device_alone : bool
+            True to look at the device: its drives may be set up for another motor. A run needs False.
 
         Raises
         ------
@@ -168,14 +175,16 @@ class Configuration:
             ) from None
         except ValueError as error:
             raise ConfigurationError(f"{path}: {error}") from None
-        return cls.from_toml(text, name=str(path))
+        return cls.from_toml(text, name=str(path), device_alone=device_alone)
 
     @classmethod
-    def from_toml(cls, text: str, *, name: str = "configuration") -> Self:
-        """Read a configuration from TOML text. Raises the same errors as `load`."""
+    def from_toml(
+        cls, text: str, *, name: str = "configuration", device_alone: bool = False
+    ) -> Self:
+        """Read a configuration from TOML text. `device_alone` is that of `load`, as are the errors."""
         require(text, str, "Configuration.from_toml", "text")
         try:
-            return cls(**read(Source(name=name, text=text)))
+            return cls(**read(Source(name=name, text=text), device_alone=device_alone))
         except ConfigurationError:
             raise
         except ProfileError as error:

@@ -8,6 +8,9 @@ from typing import Any
 from ebac._core import Device
 from ebac._util.file_kinds import SCENARIO, kind_of
 from ebac._util.plural import plural
+from ebac.drives.network import BUILT_IN, Network
+from ebac.drives.profile import builtin
+from ebac.drives.profile_fields import BY_NAME
 from ebac.drives.toml_positions import Source
 from ebac.hardware.tables import refusing
 from ebac.hardware.world_place import never_reached
@@ -21,33 +24,16 @@ _SAME: tuple[tuple[str, Callable[[Device], float], str], ...] = (
 )
 
 
-def check_fit(source: Source, values: Mapping[str, Any]) -> None:
-    """Refuse what does not fit together.
+def check_fit(source: Source, values: Mapping[str, Any], *, device_alone: bool = False) -> None:
+    """Refuse what does not fit together; with `device_alone` the drives may be those of another device.
 
     Raises
     ------
     ProfileError
         With the line of what to change.
     """
-    axes, drives = values["device"].axes, values["drives"]
-    if len(drives.nodes) != axes:
-        raise source.refuse(
-            ("bus", "drives"),
-            f"bus.drives: {drives.name} has {plural(len(drives.nodes), 'drive')}, the device "
-            f"{plural(axes, 'axis', 'axes')}: must be as many; give another network file, or a device with as many axes"
-            + _maybe_scenario(source),
-        )
-    for node in drives.nodes:
-        for key, mine, name in _SAME:
-            theirs, own = node.profile.values.get(key), mine(values["device"])
-            if theirs is not None and abs(float(theirs) - own) > 0.01 * own:
-                what = "position" if name.startswith("encoder.") else "force"
-                raise source.refuse(
-                    ("bus", "drives"),
-                    f"bus.drives: node {node.id} of {drives.name} has {key} = {float(theirs):g}, the device "
-                    f"{name} = {own:g}: must be the same within 1 %, or every {what} is wrong; set one of them"
-                    + _without_a_bus(source),
-                )
+    if not device_alone:
+        _check_drives(source, values["device"], values["drives"])
     refusing(
         source,
         ("environment",),
@@ -61,6 +47,61 @@ def check_fit(source: Source, values: Mapping[str, Any]) -> None:
     beyond = never_reached(values["device"], values["limits"], values["environment"])
     if beyond is not None:
         raise source.refuse(*beyond)
+
+
+def _check_drives(source: Source, device: Device, drives: Network) -> None:
+    axes = device.axes
+    if len(drives.nodes) != axes:
+        raise source.refuse(
+            ("bus", "drives"),
+            f"bus.drives: {drives.name} has {plural(len(drives.nodes), 'drive')}, the device "
+            f"{plural(axes, 'axis', 'axes')}: must be as many; give another network file, or a device with as many axes"
+            + _maybe_scenario(source),
+        )
+    if found := other_motor(device, drives):
+        raise source.refuse(("bus", "drives"), f"bus.drives: {found}{_without_a_bus(source)}")
+
+
+def other_motor(device: Device, drives: Network) -> str:
+    """Return in words what profiles and device do not agree on, and the remedy; "" where they agree on all."""
+    alike: dict[str, list[str]] = {}
+    for key, mine, name in _SAME:
+        own, unit = mine(device), BY_NAME[key].unit
+        for node in drives.nodes:
+            theirs = node.profile.values.get(key)
+            if theirs is not None and abs(float(theirs) - own) > 0.01 * own:
+                text = f"{key} = {float(theirs):g} {unit}, the device {name} = {own:g} {unit}"
+                alike.setdefault(text, []).append(str(node.id))
+    if not alike:
+        return ""
+    listed = "; ".join(
+        f"{'node' if len(ids) == 1 else 'nodes'} {', '.join(ids)}: {text}"
+        for text, ids in alike.items()
+    )
+    return (
+        f"{drives.name} and the device are for different motors. {listed}. Each must be the same within 1 %, or every "
+        f"force or position is wrong; correct the device or the profile{_from_files(drives)}"
+    )
+
+
+def _from_files(drives: Network) -> str:
+    """Return how what comes with the package is changed: in a file; "" where all of it is in files."""
+    profiles = sorted({node.profile.name for node in drives.nodes} & set(builtin()))
+    if not profiles:
+        return ""
+    files = ["my-drive.toml"] if len(profiles) == 1 else [f"my-{name}.toml" for name in profiles]
+    steps = [
+        f"`ebac drive profile {name} > {file}`" for name, file in zip(profiles, files, strict=True)
+    ]
+    named = [f'profile = "{file}"' for file in files]
+    network = drives.name.removeprefix(BUILT_IN)
+    if network == drives.name:
+        return f", here one that comes with ebac: {' and '.join(steps)}, and {' and '.join(named)} in {drives.name}"
+    steps = [f"`ebac drive profile {network} > my-network.toml`", *steps]
+    return (
+        f", here those that come with ebac: {' and '.join(steps)} write them to files; give your motor in the profile, "
+        f'{" and ".join(named)} in the network file, and drives = "my-network.toml" in [bus]'
+    )
 
 
 def _maybe_scenario(source: Source) -> str:

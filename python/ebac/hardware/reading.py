@@ -51,8 +51,8 @@ OF_BUS = ["interface", "channel", "drives", "setup", *(key.name for key in BUS)]
 _OF_A_SCENARIO = ("seconds", "jitter", "seed", "hand")
 
 
-def read(source: Source) -> dict[str, Any]:
-    """Return the parts of a configuration.
+def read(source: Source, *, device_alone: bool = False) -> dict[str, Any]:
+    """Return the parts of a configuration; with `device_alone` the drives may be those of another device.
 
     Raises
     ------
@@ -100,7 +100,7 @@ def read(source: Source) -> dict[str, Any]:
     known(source, ("simulated",), ["hand", "signs", "zero", "bus"])
     values["hand"] = on_its_preset(source, ("simulated", "hand"), presets.hand, "reference")
     values["simulated_bus"] = _simulated_bus(source, values)
-    check_fit(source, values)
+    check_fit(source, values, device_alone=device_alone)
     return values
 
 

@@ -104,7 +104,7 @@ def _of_file(file: Path) -> tuple[Device, str]:
     else:
         from ebac.hardware import Configuration
 
-        known = Configuration.load(file)
+        known = Configuration.load(file, device_alone=True)
         doubtful_run.tell(file, known)
         preset = parsed(known.text).get("device", {}).get("preset", "joystick")
         device, base = known.device, f"device preset {preset}"

@@ -1,0 +1,51 @@
+"""Drives of a configuration that allow less than its device wants, or more than its motor takes, or are for another."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from ebac.cli import output
+
+if TYPE_CHECKING:
+    from ebac.hardware import Configuration
+
+
+def note(file: Path | str, known: Configuration) -> None:
+    """Print on stderr in what the drives are for another motor: a command that looks at the device alone goes on."""
+    for text in _other_motor(known):
+        output.note(f"{file}: {text}")
+
+
+def doubts(known: Configuration) -> list[str]:
+    """Return a sentence for each value of the drives that is likely not meant, with the remedy."""
+    return _other_motor(known) or [*_weak(known), *_strong(known)]
+
+
+def _other_motor(known: Configuration) -> list[str]:
+    from ebac.hardware.fit import other_motor
+
+    found = other_motor(known.device, known.drives)
+    return [f"bus.drives: {found}"] if found else []
+
+
+def _weak(known: Configuration) -> list[str]:
+    from ebac.hardware.drive_limits import ROUNDING, allowed_ratio
+
+    motor = known.device.motor
+    ratio, key = allowed_ratio(known.drives)
+    allowed = ratio * motor.current(motor.rated_torque)
+    if allowed >= known.limits.peak_current * (1 - ROUNDING):
+        return []
+    return [
+        f"{key} in {known.drives.name}: the drive lets through {allowed:.4g} A, {known.device.force(allowed):.3g} N at "
+        f"the handle, less than limits.peak_current = {known.limits.peak_current:.4g} A, and the law does not know it; "
+        f"lower limits.peak_current (and continuous_current) to {allowed:.4g}, or raise the limit of the profile"
+    ]
+
+
+def _strong(known: Configuration) -> list[str]:
+    from ebac.hardware.drive_limits import above_peak
+
+    found = above_peak(known.device, known.drives)
+    return [f"{text}; {remedy}" for _, text, remedy in found]
