@@ -92,7 +92,7 @@ def test_a_value_of_several_lines_stands_where_it_begins() -> None:
         ("counts_per_turn = 1024", "counts_per_turn = 10.5", 9,
          "motor.counts_per_turn = 10.5: must be a whole number in counts; edges the drive counts"),
         ("[motor]", "[moter]", 4,
-         "moter: no such name, did you mean 'motor'; there are: about, pdo, objects, without, motor"),
+         "moter: no such name, did you mean 'motor'; there are: about, vendor, pdo, objects, without, motor"),
         ('"0x2383"  ', '"0x2384"', 5,
          'motor.object = "0x2384": must be "0x2383" or "0x6410"; older Copley firmware'),
         ("continuous_torque = 0.053", "continuous_torque = 0.06", 7,

@@ -17,7 +17,9 @@ from ebac import drives
 from ebac._core import DriveWiring, Joystick, LoopbackHub, LoopbackJoystick, SimulatedDrive
 from ebac.can.channels import standing
 from ebac.cli import app
+from ebac.cli.drive import results
 from ebac.drives.profile import read_source
+from ebac.drives.simulate import inject
 from ebac.hardware import Configuration, Signs, find_signs
 from ebac.hardware.dictionary import dictionary
 from ebac.hardware.wiring import wiring_of
@@ -107,7 +109,6 @@ def test_drives_have_the_ids_zero_and_signs_of_the_configuration(own: Path) -> N
     known = Configuration.load(own)
     wiring = wiring_of(known)
     assert wiring["nodes"] == [9, 5]
-    assert wiring["sheets"][1] == []  # the simulated drive's own dictionary is enough
     assert (wiring["zero"], wiring["motor"], wiring["encoder"]) == ([100, -7], [-1, 1], [1, -1])
     assert json.loads(json.dumps(wiring_of(known)))["nodes"] == [9, 5]
     joystick = Joystick(known.scenario(seconds=1).setup(), wiring=DriveWiring(**wiring))
@@ -116,6 +117,35 @@ def test_drives_have_the_ids_zero_and_signs_of_the_configuration(own: Path) -> N
         assert [bus.drive(node).read("position") for node in (9, 5)] == [100, -7]
         assert bus.drive(9).look((0x3001, 1)) is not None
         assert bus.drive(5).look((0x3001, 1)) is None
+        assert [bus.drive(node).look("vendor_id") for node in (9, 5)] == [0xFB, 0x9A]
+
+
+def test_a_simulated_drive_has_the_maker_of_its_profile_and_the_units_of_that_maker(
+    tmp_path: Path,
+) -> None:
+    (node,) = drives.load("maxon-epos4", nodes=[5]).nodes
+    simulated = SimulatedDrive(node=5, sheet=dictionary(node))
+    with drives.DriveBus(SimulatedBus(simulated, per_frame=1e-3)) as bus:
+        drives.apply(bus.drive(5), node, backups=drives.Backups(tmp_path))
+        rows = {row["name"]: row for row in results.holdings(bus.drive(5), everything=False)}
+        inject(bus.drive(5), ["over-voltage"])
+        assert bus.drive(5).state is drives.State.FAULT
+    assert rows["vendor_id"]["value"] == 0xFB
+    assert (rows["rated_torque"]["value"], rows["rated_torque"]["unit"]) == (52993, "1e-6 N m")
+    assert not [
+        row for row in rows.values() if "Copley" in row["meaning"] and row["object"] > "0x2000"
+    ]
+    (copley,) = drives.load("copley-accelnet", nodes=[5]).nodes
+    assert dictionary(copley) == []  # the simulated drive's own dictionary is enough
+
+
+@pytest.mark.parametrize("given", ["true", "-1", "0x100000000", '"maxon"'])
+def test_a_maker_that_is_none_is_refused(given: str, tmp_path: Path) -> None:
+    file = tmp_path / "own.toml"
+    text = read_source("maxon-epos4").text
+    file.write_text(text.replace("vendor = 0xFB", f"vendor = {given}", 1), encoding="utf-8")
+    with pytest.raises(drives.ProfileError, match=r"own\.toml, line 4: vendor = .*0xFB is maxon"):
+        drives.load(file, nodes=[5])
 
 
 @pytest.mark.parametrize("motor", [1, -1])

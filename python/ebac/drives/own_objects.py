@@ -21,6 +21,24 @@ _COMMANDS = frozenset(
 _RESERVED = frozenset({0x1005, 0x1010, 0x1011, 0x1014, 0x1016, 0x1017})
 
 
+def read_vendor(source: Source, table: Mapping[str, Any], base: int) -> int:
+    """Return the maker's number that a profile names; `base` where it names none, as the table of a node.
+
+    Raises
+    ------
+    ProfileError
+        For what is no number of CiA's list.
+    """
+    found = table.get("vendor", base)
+    if isinstance(found, bool) or not isinstance(found, int) or not 0 <= found < 1 << 32:
+        raise source.refuse(
+            ("vendor",),
+            f"vendor = {found!r}: must be a whole number in [0, 0xFFFFFFFF], what the drive has in 0x1018:1 (0xFB is "
+            "maxon); leave it out for any maker",
+        )
+    return found
+
+
 def read_objects(
     source: Source,
     table: Any,

@@ -17,7 +17,7 @@ from ebac._util.wrong_calls import plain_constructor
 from ebac.drives.errors import ProfileError
 from ebac.drives.load import Traffic
 from ebac.drives.objects import Object, find
-from ebac.drives.own_objects import following, read_objects
+from ebac.drives.own_objects import following, read_objects, read_vendor
 from ebac.drives.pdo import Pdo, read_pdo, sync_period
 from ebac.drives.profile_fields import BY_NAME, KEYS, RULES, Value
 from ebac.drives.setting import Setting
@@ -51,6 +51,8 @@ class Profile:
         Objects of the maker's own, and their raw numbers.
     without : tuple of str
         Keys whose object the drive does not have: they scale others and are not written.
+    vendor : int
+        The maker's number (0x1018:1), which a simulated drive takes; 0 for any maker.
 
     Raises
     ------
@@ -65,6 +67,7 @@ class Profile:
     silence: bool = True
     objects: tuple[Setting, ...] = ()
     without: tuple[str, ...] = ()
+    vendor: int = 0
 
     def __post_init__(self) -> None:
         """Check what must hold between keys, where no file is to blame."""
@@ -229,6 +232,7 @@ def read_profile(source: Source, *, base: Profile | None = None, at: Where = ())
         silence=silence,
         objects=tuple(owned.values()),
         without=without,
+        vendor=read_vendor(source, table, base.vendor if base else 0),
     )
 
 
@@ -252,7 +256,7 @@ def _not_without(name: str) -> str | None:
 
 def _values(source: Source, table: Mapping[str, Any], at: Where) -> Iterator[tuple[str, Value]]:
     own = ("objects", "without")
-    apart = ("about", "pdo", *own) if not at else ("id", "name", "profile", "eds", *own)
+    apart = ("about", "vendor", "pdo", *own) if not at else ("id", "name", "profile", "eds", *own)
     for title, item in table.items():
         if title in apart:
             continue
