@@ -184,6 +184,16 @@ def test_an_object_the_drive_lacks_is_refused_before_anything_is_written(
     assert not shelf.folder.exists()
 
 
+def test_a_change_is_text_with_units(bus: drives.DriveBus, node: drives.Node) -> None:
+    found = {one.object.name: one for one in drives.plan(bus.drive(1), node).changes}
+    assert found["sync_period"].shown == ("0", "1000 us")
+    assert found["heartbeat_consumer"].shown == ("none", "node 127, 100 ms")
+    assert found["tpdo1_entry2"].shown[1] == "position (32 bit)"
+    assert str(found["sync_period"]) == (
+        "sync_period (0x1006): 0 -> 1000 us (the loop's SYNC comes this often)"
+    )
+
+
 def test_a_value_the_drive_refuses_stops_half_way_and_says_so(
     bus: drives.DriveBus, shelf: drives.Backups, node: drives.Node
 ) -> None:

@@ -45,6 +45,20 @@ class Change:
     wanted: int
     why: str
 
+    @property
+    def unit(self) -> str:
+        """Unit of both raw numbers; empty for a pure one, and for bits."""
+        return "" if self.object.hexadecimal else self.object.unit
+
+    @property
+    def shown(self) -> tuple[str, str]:
+        """What the drive holds, and what is wanted with its unit, as people read them: "0", "1000 us"."""
+        return self.show(self.now), f"{self.show(self.wanted)} {self.unit}".rstrip()
+
+    def __str__(self) -> str:
+        now, wanted = self.shown
+        return f"{self.object}: {now} -> {wanted} ({self.why})"
+
     def row(self) -> dict[str, Any]:
         """Return it as a plain row."""
         return {
@@ -53,7 +67,7 @@ class Change:
             "name": self.object.name,
             "now": self.now,
             "wanted": self.wanted,
-            "unit": "" if self.object.hexadecimal else self.object.unit,
+            "unit": self.unit,
             "why": self.why,
         }
 

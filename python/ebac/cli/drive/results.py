@@ -23,9 +23,7 @@ def changes(found: Sequence[Change], none: str) -> None:
         return
     alike: dict[tuple[str, ...], list[str]] = {}
     for one in found:
-        unit = "" if one.object.hexadecimal else one.object.unit
-        now, wanted = one.show(one.now), f"{one.show(one.wanted)} {unit}".rstrip()
-        row = (one.object.where, one.object.name, now, wanted, one.why)
+        row = (one.object.where, one.object.name, *one.shown, one.why)
         alike.setdefault(row, []).append(str(one.node))
     grid = output.table(["object", "", "node", "now", "wanted", "why"], numbers=(3, 4))
     for (where, name, *values), nodes in alike.items():
