@@ -253,9 +253,21 @@ def test_a_configuration_of_a_run_is_not_taken_for_a_network_file(
         assert message.endswith(wanted.replace(" ", "")), message
 
 
+def test_apply_asks_only_what_it_does(drive: Run) -> None:
+    assert "Disable node 1 and write this?" in said(drive("apply", "-n", "1", code=2))
+    drive("apply", "-n", "1", "--yes")
+    assert "holds all of it already, nothing was written" in said(drive("apply", "-n", "1"))
+    assert "Disable node 1 and store what is held?" in said(
+        drive("apply", "-n", "1", "--store", code=2)
+    )
+    drive("enable", "-n", "1", "--yes")
+    assert "Disable node 1? Nothing is written." in said(drive("apply", "-n", "1", code=2))
+
+
 @pytest.mark.parametrize("command", ["apply", "restore", "enable"])
 def test_what_writes_asks_and_where_nobody_can_answer_refuses(drive: Run, command: str) -> None:
-    drive("apply", "-n", "1", "--yes")
+    if command != "apply":  # it asks only where it changes something
+        drive("apply", "-n", "1", "--yes")
     assert "Nobody is here to ask: add --yes" in said(drive(command, "-n", "1", code=2))
     assert {row["state"] for row in drive("scan", "--json", "--timeout", "0.1")["rows"]} == {
         "switch on disabled"

@@ -45,8 +45,8 @@ def apply(
 ) -> None:
     """Set the drives to a profile: disable, back up, write, read back. They stay disabled.
 
-    Without `--yes` the plan is shown and confirmation is asked for. After an interruption the same command finishes
-    the work, and `ebac drive restore` undoes it.
+    Without `--yes` the plan is shown and confirmation is asked for, unless nothing is to be written and no drive has
+    power. After an interruption the same command finishes the work, and `ebac drive restore` undoes it.
 
     **Examples**
 
@@ -59,12 +59,12 @@ def apply(
     network = network_of(profile, node, where)
     with opened(where) as bus:
         pairs = [(checked(bus, n.id, where, n.sheet), n) for n in network.nodes]
+        found = [change for one, n in pairs for change in library.plan(one, n).changes]
         if not as_json:
-            found = [change for one, n in pairs for change in library.plan(one, n).changes]
             results.changes(found, "The drives hold all of it: nothing will change.")
             results.load(network)
-        ids = ", ".join(str(n.id) for n in network.nodes)
-        sure(f"Disable node {ids} and write this?", yes)
+        if question := _question(pairs, changes=bool(found), store=store):
+            sure(question, yes)
         shelf = library.Backups(backup)
         work = [(one, partial(_apply, one, n, shelf, store)) for one, n in pairs]
         rows, nodes = _carried_out(work, as_json)
@@ -101,6 +101,19 @@ def restore(
         rows, nodes = _carried_out(work, as_json)
     if as_json:
         typer.echo(output.document("drive restore", rows, nodes=nodes))
+
+
+def _question(pairs: Sequence[tuple[Drive, Node]], *, changes: bool, store: bool) -> str:
+    """Return what `apply` asks: only what it does; "" where that is nothing that anybody would notice."""
+    concerned = [one.node for one, _ in pairs if changes or store or one.state.powered]
+    if not concerned:
+        return ""
+    ids = f"{'node' if len(concerned) == 1 else 'nodes'} {', '.join(map(str, concerned))}"
+    if changes:
+        return f"Disable {ids} and write this{' and store it' if store else ''}?"
+    return (
+        f"Disable {ids} and store what is held?" if store else f"Disable {ids}? Nothing is written."
+    )
 
 
 def _apply(one: Drive, node: Node, shelf: Backups, store: bool, step: Progress) -> Applied:
