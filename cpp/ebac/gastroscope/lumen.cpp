@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 constexpr double kWave = 0.02;  // m, half of the length of a peristaltic wave
-constexpr double kLeastRadius = 1e-3, kMostRadius = 0.2;  // m, of a line of the user's own
+constexpr double kLeastRadius = 1e-3, kMostRadius = 1;  // m, of a line of the user's own
 constexpr double kLeastTurned = 0.2;  // of a length along the centre line, at the inside of a turn
 
 /// A part of the lumen that turns evenly in a plane: 0 towards the camera's right, pi/2 down.

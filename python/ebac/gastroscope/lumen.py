@@ -42,7 +42,7 @@ class Lumen:
     points : array_like, optional
         Centre line of your own, shape (n, 3) [m], 5 mm or more from point to point, from the teeth on.
     radii : sequence of float, optional
-        A radius for each point [m], [0.001, 0.2].
+        A radius for each point [m], [0.001, 1].
     wall : solid of `ebac.worlds`, optional
         The tissue as a solid, for instance `worlds.Cavity(worlds.Mesh("stomach.stl"))`; needs `points` and `radii` for
         the way through it. Peristalsis does not move it, breathing does.
