@@ -213,6 +213,24 @@ def test_a_ball_is_felt_along_its_radius() -> None:
     assert ebac.contact(trace).ideal_m == pytest.approx(end["true.x"][:, 0].mean(), abs=EXACT)
 
 
+def test_a_handle_that_slid_around_a_ball_and_grazes_its_far_side_has_left_it() -> None:
+    """The target of the reference hand, 40 mm, is the last point of the ball of 40 mm."""
+    ball = ebac.worlds.preset("sphere")
+    scenario = ebac.Scenario(device=STICK, environment=ball, seconds=2)
+    for law in ("tca", "ebac"):
+        found = ebac.contact(ebac.simulate(scenario, law))
+        assert found.rest_m == pytest.approx(0.04, abs=1e-4)
+        assert found.verdict == "left the surface: no contact at rest"
+    box = scenario.replace(environment=ebac.worlds.preset("box"))
+    assert ebac.contact(ebac.simulate(box, "ebac")).verdict == "exact and quiet"
+
+
+def test_a_light_touch_is_no_graze() -> None:
+    light = ebac.Hand(path=[ebac.Step(target=1e-4)])  # m into the wall: 0.03 N
+    found = ebac.contact(ebac.simulate(ebac.Scenario(hand=light, seconds=2), "ebac"))
+    assert found.touched_at_rest is True
+
+
 def test_the_observer_knows_the_slide() -> None:
     device = STICK.replace(
         kinematics=ebac.SlidingGimbal(slide_radius=0.06), sensor=ebac.ForceSensor(noise=0.03)

@@ -122,7 +122,8 @@ class Contact:
     touched_at_rest : bool or None
         Whether it acted in the last half second of the run, in 1.25 swings where that is longer, or in its last 30 %
         where that is shorter: False where the handle left the surface, and rest, swing and force are those of free air.
-        None where that is not known.
+        False as well where it rests and only grazes a surface, as behind a ball that it slid around: world and law
+        press with less than 5 % of the force at the ideal rest. None where that is not known.
     with_hand : bool
         Whether it swings because the target of the simulated hand still moves over the last 30 %: there the handle
         goes no longer a way, to and fro, than the target on all axes, tremor apart, and turns round no more than twice

@@ -33,6 +33,9 @@ from ebac.trace.acting import without_waits
 LEFT_AFTER = 0.5
 #: A handle that swings has left it if it met nothing for so many of its swings, where that is longer.
 SWINGS = 1.25
+#: A handle at rest under less than this share of the force at the ideal rest grazes a surface, and is held by none: its
+#: target lies on the far side of a body that it slid around.
+GRAZE_SHARE = 0.05
 #: The numbers of a contact, and what the core calls them.
 COLUMNS = {
     "rest_m": "rest",
@@ -134,9 +137,13 @@ def contact(trace: Trace, *, axis: int | None = None, truth: bool = True) -> Con
     }
     known["jumps"] = int(known["jumps"])
     simulated = scenario is not None and "true.x" in trace
+    ideal = ideal_rest(scenario) if scenario and axis == 0 and not trace.changed else None
+    touched = _touched(trace, judged, known["limit_cycle"])
+    if known["still"] and _grazes(trace, judged, ideal):
+        touched["touched_at_rest"] = False
     return Contact(
         law=trace.law,
-        ideal_m=ideal_rest(scenario) if scenario and axis == 0 and not trace.changed else None,
+        ideal_m=ideal,
         count_m=scenario.device.count if scenario else None,
         allowed_m=allowed_deviation(scenario) if scenario else None,
         seconds=float(trace["t"][-1] - trace["t"][0]),
@@ -146,7 +153,7 @@ def contact(trace: Trace, *, axis: int | None = None, truth: bool = True) -> Con
         and all(moves_with_hand(trace, i) for i in judged),
         at_hands_pace=at_hands_pace(trace, known["limit_cycle"], judged, target=simulated),
         saturated_share=_saturated(trace, axis),
-        **_touched(trace, judged, known["limit_cycle"]),
+        **touched,
         **{column: known[name] for column, name in COLUMNS.items()},
         **{name: known[name] for name in FLAGS},
     )
@@ -204,6 +211,21 @@ def _touched(trace: Trace, judged: Sequence[int], frequency: float | None) -> di
         "touched": bool(acted.any()),
         "touched_at_rest": bool(acted[t >= t[-1] - end].any()),
     }
+
+
+def _grazes(trace: Trace, judged: Sequence[int], ideal: float | None) -> bool:
+    """Return whether neither world nor law presses at rest, though the ideal rest [m] is inside the world."""
+    scenario = trace.scenario
+    if scenario is None or ideal is None or "f_env" not in trace:
+        return False
+    most = GRAZE_SHARE * abs(scenario.hand.steady(ideal))
+    t = trace["t"]
+    tail = t >= t[-1] - TAIL_SHARE * (t[-1] - t[0])
+    means = [
+        np.hypot.reduce([trace.axis(name, i)[tail].mean() for i in judged])
+        for name in ("f_env", "f_applied")
+    ]
+    return bool(max(means) < most)
 
 
 def _columns(trace: Trace, name: str) -> NDArray[np.float64]:
