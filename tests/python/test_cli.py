@@ -303,6 +303,31 @@ def test_wall_takes_every_option_into_the_scenario() -> None:
     assert scenario["device"]["drive"]["permille"] is True
 
 
+@pytest.mark.parametrize(
+    ("words", "note"),
+    [
+        ("--wall-position 10", "Note: --wall-position = 10 m: the handle never reaches the wall, the stops of the "
+         "device stand at 0.05236 m (device.kinematics.limit); positions are in metres, 10 mm are 0.01"),
+        ("--wall-position 10 --world sphere", "Note: --wall-position = 10 m: the handle never reaches the wall"),
+        ("--scenario far.toml", "far.toml: environment.position = 10 m: the handle never reaches the wall"),
+        ("--wall-position 0.02 --hand-target 0.01", "Note: the wall stands at 0.02 m (--wall-position), and the target "
+         "of the hand comes to 0.01 m at most: no law meets the wall; give a nearer wall, or a target behind it by "
+         "--hand-target"),
+        ("--wall-position 0.01", ""),
+    ],
+)  # fmt: skip
+def test_a_wall_that_the_handle_never_reaches_is_noted(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, words: str, note: str
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("far.toml").write_text('[environment]\ntype = "Wall"\nposition = 10.0\n')
+    command = ["wall", "--law", "ebac", "--seconds", "0.3", "--no-files", *words.split()]
+    result = CliRunner().invoke(app, command)
+    assert result.exit_code == 0
+    assert note in (told := " ".join(result.stderr.split()))
+    assert told.count("Note:") == bool(note)
+
+
 def test_several_laws_have_commas_between_them() -> None:
     text = refusal("wall", "--law", "tca ebac")
     assert "--law tca ebac: separate names by commas: --law tca,ebac" in text

@@ -31,7 +31,7 @@ def _scenario(given: dict[str, Any], seconds: float | None) -> Scenario:
     if length is None and not (file and setting.has_seconds(file)):
         length = seconds
     device = setting.choose_device(base.device, given)
-    return base.replace(
+    made = base.replace(
         device=device,
         hand=hand(base.hand, given),
         environment=setting.choose_engine(wall(base.environment, given), given),
@@ -41,6 +41,8 @@ def _scenario(given: dict[str, Any], seconds: float | None) -> Scenario:
             observer=_observer(given, device),
         ),
     )  # fmt: skip
+    doubtful_wall.tell_place(given.get("wall_position"), file, made)
+    return made
 
 
 def _observer(given: dict[str, Any], device: Device) -> Any:

@@ -9,7 +9,15 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from ebac.cli import by_name, changed_laws, engine_options, from_options, options, output
+from ebac.cli import (
+    by_name,
+    changed_laws,
+    doubtful_wall,
+    engine_options,
+    from_options,
+    options,
+    output,
+)
 from ebac.cli.files import PANEL, ResultOptions
 from ebac.cli.wall import results as wall_results
 
@@ -163,6 +171,7 @@ def _run(
         wall_results.report_fault(fault, out)
     for trace in traces:
         _tell_left(trace, scenario)
+    doubtful_wall.tell_untouched(scenario, contacts)
     if as_json:
         typer.echo(text)
         return
