@@ -744,6 +744,32 @@ def test_a_device_in_wrong_units_is_noted(typed: dict[str, str], found: list[str
         assert noted in said
 
 
+@pytest.mark.parametrize(
+    ("table", "wrong", "fine", "note"),
+    [
+        ("sensor", "noise = 30", "noise = 0.5", "device.sensor.noise = 30 N: usual are at most 1 N; it is the standard "
+         "deviation at rest in N, 30 mN are 0.03"),
+        ("motor", "stall_current = 10000", "stall_current = 100", "device.motor.stall_current = 10000 A: usual are at "
+         "most 200 times the continuous current, 197 A; it is in A, 10000 mA are 10"),
+        ("drive", "current_lag = 0.03", "current_lag = 0.001", "device.drive.current_lag = 0.03 s: usual are at most "
+         "0.005 s"),
+        ("mechanics", "gravity = -9.81", "gravity = 9.81", "device.mechanics.gravity = -9.81 m/s^2: pulls along -x; "
+         "usual are 9.81, and 0"),
+        ("mechanics", "gravity = 98.1", "gravity = 0", "device.mechanics.gravity = 98.1 m/s^2: is more than that of"),
+        ("mechanics", "breakaway = 1\ncoulomb = 3", "breakaway = 4\ncoulomb = 3", "device.mechanics.breakaway = 1 N is "
+         "less than coulomb = 3 N"),
+    ],
+)  # fmt: skip
+def test_a_number_of_a_device_that_is_likely_in_a_wrong_unit_is_noted(
+    table: str, wrong: str, fine: str, note: str
+) -> None:
+    for values, expected in ((wrong, note), (fine, "")):
+        Path("device.toml").write_text(f"[device.{table}]\n{values}\n", encoding="utf-8")
+        noted = " ".join(ebac_command("specs", "--scenario", "device.toml").stderr.split())
+        assert expected in noted
+        assert noted.count("Note:") == bool(expected)
+
+
 def test_a_simulation_notes_a_device_in_wrong_units() -> None:
     Path("device.toml").write_text("[device.motor]\ntorque_constant = 25.5\n", encoding="utf-8")
     words = ("wall", "--law", "direct", "--seconds", "0.1", "--no-files", "--json")

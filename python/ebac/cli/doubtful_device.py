@@ -6,6 +6,7 @@ from math import radians
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from ebac._core import Linear
 from ebac.cli import output
 
 if TYPE_CHECKING:
@@ -19,6 +20,10 @@ CURRENT, FORCE, MASS = (0.05, 50.0), (0.1, 1e3), (1e-3, 20.0)
 COUNT = 2e-4
 #: Steps of a force sensor from which on `ebac` is neither quiet nor keeps every wall [N].
 COARSE = 0.1
+#: Most noise of a force sensor [N], slowest current loop of a drive [s], and strongest weight [m/s^2] that are usual.
+NOISE, CURRENT_LAG, GRAVITY = 1.0, 5e-3, 9.82
+#: No motor takes so many times its continuous current when it is stalled.
+STALL = 200.0
 #: Option that takes the force sensor off a device, or gives it one.
 SENSOR_OFF = "--device-sensor"
 #: No lever turns farther from its middle [rad], nor moves a cable at its drum farther [m].
@@ -73,6 +78,7 @@ def doubts(device: Device) -> list[str]:
             "with the observer is not quiet and can lose walls; --no-observer runs it on the encoder alone"
         )
     found += _unused_noise(device)
+    found += _single_numbers(device)
     found += _far_stops(device)
     drum, sector = device.capstan.drum_radius, device.capstan.sector_radius
     if drum > sector:
@@ -95,6 +101,43 @@ def _unused_noise(device: Device) -> list[str]:
         f"device.sensor: fitted = false, but noise = {device.sensor.noise:g} N: the device has no force "
         "sensor, and the noise is not used; leave out fitted where it has one"
     ]
+
+
+def _single_numbers(device: Device) -> list[str]:
+    """Return what is unusual of numbers that nothing else of the device follows from."""
+    motor, drive, mechanics, sensor = device.motor, device.drive, device.mechanics, device.sensor
+    most_stall = STALL * motor.current(motor.rated_torque)
+    found = []
+    if sensor.fitted and sensor.noise > NOISE:
+        found.append(
+            f"device.sensor.noise = {sensor.noise:g} N: usual are at most {NOISE:g} N; it is the standard deviation at "
+            f"rest in N, {sensor.noise:g} mN are {sensor.noise / 1e3:g}"
+        )
+    # The stall current of the reference belongs to no other motor.
+    if motor.stall_current != type(motor)().stall_current and motor.stall_current > most_stall:
+        found.append(
+            f"device.motor.stall_current = {motor.stall_current:g} A: usual are at most {STALL:g} times the continuous "
+            f"current, {most_stall:.4g} A; it is in A, {motor.stall_current:g} mA are {motor.stall_current / 1e3:g}"
+        )
+    if drive.current_lag > CURRENT_LAG:
+        found.append(
+            f"device.drive.current_lag = {drive.current_lag:g} s: usual are at most {CURRENT_LAG:g} s; it is the time "
+            "constant of the current loop in s (ms x 1e-3), 1 / (2 pi x its bandwidth in Hz)"
+        )
+    if not 0 <= mechanics.gravity <= GRAVITY:
+        ways = "pulls along -x" if isinstance(device.kinematics, Linear) else "pulls up"
+        how = ways if mechanics.gravity < 0 else "is more than that of the earth"
+        found.append(
+            f"device.mechanics.gravity = {mechanics.gravity:g} m/s^2: {how}; usual are 9.81, and 0 where a spring or "
+            "counterweight carries the handle"
+        )
+    if 0 < mechanics.breakaway < mechanics.coulomb:
+        found.append(
+            f"device.mechanics.breakaway = {mechanics.breakaway:g} N is less than coulomb = {mechanics.coulomb:g} N: "
+            "friction at standstill is never below that in motion, so that it is coulomb; give the larger one as "
+            "breakaway, or leave it out"
+        )
+    return found
 
 
 def _far_stops(device: Device) -> list[str]:
