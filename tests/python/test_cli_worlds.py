@@ -106,3 +106,9 @@ def test_every_number_at_a_place_has_its_unit() -> None:
 )
 def test_places_that_are_none(words: str, said: str) -> None:
     assert said in ran(words, 2)
+
+
+def test_a_place_that_is_likely_meant_in_millimetres_is_noted() -> None:
+    noted = ran("worlds sphere --at 1,0,0")
+    assert "positions are in metres, these in mm are 0.001,0,0" in " ".join(noted.split())
+    assert "in metres" not in ran("worlds sphere --at 0.03,0,0")

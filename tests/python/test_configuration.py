@@ -60,6 +60,11 @@ def test_an_empty_one_is_the_paper_s_joystick() -> None:
     [
         ("[bus]\nchanel = 'can0'\n", 2, "bus.chanel: no such name, did you mean 'channel'"),
         ("[bus]\n\ninterface = 'kvaser'\n", 3, "bus.interface = 'kvaser'"),
+        (
+            "[bus]\ninterface = 'udp_multicast'\n",
+            2,
+            "a loop runs over no other interface of python-can",
+        ),
         ("[bus]\nsilent = 0\n", 2, "silent = 0 samples: must lie in [1, 1000] samples"),
         ("[bus]\ndrives = 'nobody'\n", 2, "there is no such file"),
         ("[device]\npreset = 'robot'\n", 2, "no device is called 'robot'"),

@@ -331,8 +331,8 @@ def test_a_study_refuses_what_it_cannot_run_by_name(
 @pytest.mark.parametrize(
     ("words", "said"),
     [
-        (["--insertion", "feet"], "must be pedals, rate or clutch"),
-        (["--bending", "none"], "must be position or rate"),
+        (["--insertion", "feet"], "there are: pedals, rate, clutch"),
+        (["--bending", "none"], "there are: position, rate"),
         (["--seconds", "0"], "must lie in"),
         (["--law", "ebax"], "ebac"),
         (["--delay", "3"], "--delay"),

@@ -20,6 +20,8 @@ from ebac.cli import by_option, files, interrupts, options, output, wrong_input
 SCENARIO = (options.WALL, options.HAND, options.DEVICE, options.RUN)
 _UsageError: Any = typer.BadParameter.__mro__[1]
 
+#: A group of no more commands lists them where a word is none.
+FEW = 15
 #: Commands by words that people use for them, which look like others: by group, `ebac` for the program itself.
 MEANT = {("teleop", "simulate"): "run", ("ebac", "simulate"): "wall"}
 
@@ -97,6 +99,8 @@ class Group(TyperGroup):
             path = ctx.command_path
             meant = MEANT.get((path.split()[-1], args[0]), "")
             near = did_you_mean(args[0], known, [meant])
+            if not near and len(known) <= FEW:
+                near = f", there {'is' if len(known) == 1 else 'are'} {', '.join(known)}"
             output.fail(f"{path} {args[0]}: there is no such command{near}; see {path} --help")
 
 

@@ -41,6 +41,15 @@ MEANT = {"--device-friction": ("--device-coulomb", "--device-friction-compensati
 #: Options that only some commands have, and these.
 OF_OTHERS = {"--change": ("ablation", "stiffest", "study", "wall", "worst", "zwidth")}
 
+#: Options that a command lacks because it does that anyway.
+ANYWAY = {
+    "run --log": "a run always writes its log, run-TIME.mcap in the folder of --out (ebac-run; with --json only where "
+    "--out is given), and --no-files writes none",
+}
+
+#: Thousandths of a unit, in which people have many numbers.
+SMALL = {"s": "ms", "m": "mm", "kg": "g"}
+
 #: What people look for who give an argument to a command that takes none.
 INSTEAD = {
     "bus load": "`ebac drive plan FILE` prints the load of a network file or profile",
@@ -100,7 +109,7 @@ def _wrong_value(param: Any, name: str, message: str, words: Sequence[str]) -> s
             remedy = _converted(text, unit) or _of_percent(text.rstrip("% "), high, unit)
             return f"{name} = {text}: must be {kind}{_in(unit)}{within}{remedy}"
         value = next((v for v in given if not _inside(v, low, high)), given[0] if given else "")
-        return f"{name} = {value}{unit}: {_must(low, high, unit)}{_of_percent(value, high, unit)}"
+        return f"{name} = {value}{unit}: {_must(low, high, unit)}{_remedy(value, low, high, unit)}"
     choices = _choices(param)
     if choices:
         value = given[0] if given else ""
@@ -131,6 +140,17 @@ def _of_percent(text: str, high: float | None, unit: str) -> str:
     """Return the share that a value in per cent is, where an option takes a share."""
     is_share = high == 1 and not unit and not _is_text(text, whole=False)
     return of_percent(float(text)) if is_share else ""
+
+
+def _remedy(value: str, low: float | None, high: float | None, unit: str) -> str:
+    """Return what a number may have been meant as: a share in per cent, or thousandths as the library sees them."""
+    small = SMALL.get(unit.strip())
+    if small is None or high is None or _is_text(value, whole=False):
+        return _of_percent(value, high, unit)
+    meant = float(value) / 1000
+    if not (float(value) > 1.1 * high and (low or 0.0) <= meant <= high):
+        return ""
+    return f"; {float(value):g} {small} is {meant:g}{unit}"
 
 
 def values_of(param: Any, words: Sequence[str]) -> Iterator[str]:
@@ -164,6 +184,8 @@ def _unknown_option(wrong: str, command: Any) -> str:
     if wrong in IN_CONFIGURATION and any(p.name == "configuration" for p in shown):
         key = IN_CONFIGURATION[wrong]
         return f"{wrong}: there is no such option here, {key} of the configuration sets it"
+    if anyway := ANYWAY.get(f"{command.name} {wrong}"):
+        return f"{wrong}: there is no such option here; {anyway}"
     if wrong in OF_OTHERS:
         have = _or([f"`ebac {name}`" for name in OF_OTHERS[wrong]], "and")
         return f"{wrong}: there is no such option here; {have} have it"

@@ -68,8 +68,10 @@ def number(source: Source, path: Path, key: Key) -> Any:
     return found[key.name]
 
 
-def word(source: Source, path: Path, value: Any, choices: Sequence[str] = ()) -> Any:
-    """Return a word, one of `choices` where there are any.
+def word(
+    source: Source, path: Path, value: Any, choices: Sequence[str] = (), hint: str = ""
+) -> Any:
+    """Return a word, one of `choices` where there are any; `hint` follows where it is none of them.
 
     Raises
     ------
@@ -79,5 +81,6 @@ def word(source: Source, path: Path, value: Any, choices: Sequence[str] = ()) ->
     if not isinstance(value, str) or not value:
         raise source.refuse(path, f"{dotted(path)} = {value!r}: must be text")
     if choices and value not in choices:
-        raise source.refuse(path, unknown(f"{dotted(path)} = {value!r}", value, list(choices)))
+        wrong = unknown(f"{dotted(path)} = {value!r}", value, list(choices))
+        raise source.refuse(path, wrong + hint)
     return value

@@ -45,6 +45,12 @@ TABLES = [
     "simulated",
 ]
 
+#: Interfaces of a loop, and what follows where it is another one.
+INTERFACES = (
+    ["socketcan", "ebac"],
+    "; a loop runs over no other interface of python-can: udp_multicast, for one, is for `ebac drive` alone; leave "
+    "interface out where the drives are simulated (--simulated)",
+)
 #: Keys of [bus].
 OF_BUS = ["interface", "channel", "drives", "setup", *(key.name for key in BUS)]
 #: What only a scenario has.
@@ -132,7 +138,7 @@ def _bus(source: Source) -> dict[str, Any]:
         raise source.refuse(("bus", "drives"), f"bus.drives: {error}") from None
     return {
         "interface": word(
-            source, ("bus", "interface"), found.get("interface", "socketcan"), ["socketcan", "ebac"]
+            source, ("bus", "interface"), found.get("interface", "socketcan"), *INTERFACES
         ),
         "channel": word(source, ("bus", "channel"), found.get("channel", "can0")),
         "drives": network,

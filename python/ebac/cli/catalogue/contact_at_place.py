@@ -14,6 +14,8 @@ if TYPE_CHECKING:
 
 #: Farthest place along each axis, and longest stride of the handle on its way [m].
 FARTHEST, STRIDE = 1.0, 2.5e-4
+#: A place so far away [m] is more likely meant in millimetres: no handle of the package gets there.
+FAR = 0.2
 
 
 def show(name: str, world: World, given: Sequence[str], *, as_json: bool) -> None:
@@ -73,6 +75,11 @@ def _numbers(text: str) -> tuple[float, float, float]:
         ) from None
     if not all(abs(one) <= FARTHEST for one in (x, y, z)):
         raise ValueError(f"--at {text}: each must lie in [-{FARTHEST:g}, {FARTHEST:g}] m")
+    if any(abs(one) >= FAR for one in (x, y, z)):
+        meant = ",".join(f"{one / 1e3:g}" for one in (x, y, z))
+        output.note(
+            f"--at {text}: farther away than a handle gets; positions are in metres, these in mm are {meant}"
+        )
     return x, y, z
 
 

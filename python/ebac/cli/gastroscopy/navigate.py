@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from ebac._util.arguments import unknown
 from ebac._util.headings import with_units
 from ebac.cli import by_name, completion, options, output
 from ebac.cli.files import PANEL, ResultOptions
@@ -21,6 +22,7 @@ if TYPE_CHECKING:
 MASTER = "Master"
 LIVE = "Live"
 INSERTION = ("pedals", "rate", "clutch")
+BENDING = ("position", "rate")
 #: Ticks from row to row of the record that lies in the folder.
 EVERY = 10
 
@@ -34,7 +36,7 @@ class MasterOptions:
         typer.Option(
             help="pedals, or the third axis as a rate or as a place with a clutch.",
             rich_help_panel=MASTER,
-            autocompletion=completion.one_of("pedals", "rate", "clutch"),
+            autocompletion=completion.one_of(*INSERTION),
         ),
     ] = "rate"
     bending: Annotated[
@@ -59,9 +61,9 @@ class MasterOptions:
         from ebac._core import Master
 
         if self.insertion not in INSERTION:
-            output.fail(f"--insertion {self.insertion}: must be pedals, rate or clutch")
-        if self.bending not in ("position", "rate"):
-            output.fail(f"--bending {self.bending}: must be position or rate")
+            output.fail(unknown(f"--insertion {self.insertion}", self.insertion, INSERTION))
+        if self.bending not in BENDING:
+            output.fail(unknown(f"--bending {self.bending}", self.bending, BENDING))
         return Master(
             insertion=INSERTION.index(self.insertion),
             bend_by_rate=self.bending == "rate",
