@@ -315,6 +315,24 @@ def test_wrong_formats_are_refused(run: Run, tmp_path: Path) -> None:
         save(plot_columns(run("eba", seconds=1.0), ["x"]), tmp_path / "x.gif")
 
 
+def test_a_path_away_from_a_cut_does_not_seem_to_go_through_the_body(run: Run) -> None:
+    """Around a ball, in the plane y = 0: in the cut at z = 0 it was a straight line through the middle."""
+    world = ebac.worlds.preset("sphere")
+    device = ebac.presets.device("joystick-3")
+    trace = run("ebac", device=device, environment=world, seconds=1.0)
+    view, *cuts = plot_world(world, [trace]).axes
+    words = "before or behind the cut"
+    for cut, beside in zip(cuts, (True, False), strict=True):
+        legend = cut.get_legend()
+        assert legend is not None
+        assert (words in [text.get_text() for text in legend.get_texts()]) == beside
+        path = cut.lines[0]
+        x, y = (np.asarray(one) for one in (path.get_xdata(), path.get_ydata()))
+        deep = np.hypot(x - 20, y) < 18  # mm, inside a ball of 40 mm
+        assert not deep.any()
+    assert any("handle comes in" in text.get_text() for text in view.texts)
+
+
 # --- colours ---
 
 #: Severe colour blindness in linear RGB (Machado, Oliveira and Fernandes 2009, severity 1).
@@ -598,7 +616,8 @@ def test_the_view_of_a_world_has_the_paths_three_directions_and_what_swings(run:
     assert [line.get_color() for line in view.lines] == [colours(["ebac"])["ebac"]]
     assert np.ptp(view.lines[0].get_xydata(), axis=0).max() > 0.5
     arrows = len([text for text in view.texts if text.get_text() == ""])
-    assert [text.get_text() for text in view.texts if text.get_text()] == ["x", "x", "y", "z"]
+    words = [text.get_text() for text in view.texts if text.get_text()]
+    assert words == ["handle comes in,\nalong x", "x", "y", "z"]
     for cut in cuts:
         assert cut.get_legend().get_texts()[-1].get_text() == "ends of its swing"
     alone = plot_world(still)

@@ -69,6 +69,21 @@ def test_one_column_of_panels_per_axis_in_use(run: Run) -> None:
     assert titles == ["axis 0", "axis 1"]
 
 
+def test_a_run_on_three_axes_shows_beta_where_it_changes_and_is_not_too_wide(run: Run) -> None:
+    """Side by side at full width, letters were too small to be read on a screen."""
+    hand = ebac.Hand(path=[ebac.Step(target=x) for x in (0.02, -0.005, 0.008)])
+    given = {"device": ebac.presets.device("joystick-3"), "hand": hand, "seconds": 0.3}
+    trace = run("ebac", environment=ebac.worlds.preset("sphere"), observer=False, **given)
+    beta = trace["law.beta"].copy()
+    beta[:, 1:] = 1e-9  # as a law that rounds
+    figure = plot_trace(trace.with_column("law.beta", beta))
+    assert [label for label in labels(figure) if "beta" in label] == [r"$\beta$ [kN/m]"]
+    assert "beta is constant on axes 1, 2, not shown" in figure.get_suptitle()
+    below = [ax.get_ylabel() for ax in figure.axes if ax.get_xlabel()]
+    assert below == [r"$\beta$ [kN/m]", "energy [mJ]", "energy [mJ]"]
+    assert figure.get_size_inches()[0] < 17
+
+
 def test_walls_of_several_axes_show_the_one_on_which_a_law_swings(run: Run) -> None:
     """In a corner they showed the first axis, at rest, while the second swung at the peak force."""
     hand = ebac.Hand(path=(ebac.Step(target=0.01), ebac.Step(target=0.04)))

@@ -1,9 +1,10 @@
-"""Titles that say what a figure shows, and marks for the end of a run: the ramp to zero, a fault."""
+"""Titles that say what a figure shows, and marks for the end of a run: the ramp to zero, a fault; and for changes."""
 
 from __future__ import annotations
 
 import re
 from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
 from matplotlib.axes import Axes
 
@@ -13,6 +14,9 @@ from ebac.laws import LAWS
 from ebac.metrics import observer_use
 from ebac.scenario import Scenario
 from ebac.trace import Trace
+
+if TYPE_CHECKING:
+    from ebac.logs import Event
 
 #: The state of the loop in which it ramps the force to zero.
 _STOP = 3
@@ -120,6 +124,22 @@ def mark_end(ax: Axes, trace: Trace, *, label: bool = True) -> None:
             ls=(0, (4, 2)),
             label=fault if label else "_",
         )
+
+
+def mark_changes(panels: Sequence[Axes], changes: Sequence[Event]) -> None:
+    """Mark changes in every panel that shows their time, with their numbers along the upper edge."""
+    numbers: dict[float, list[str]] = {}
+    for number, change in enumerate(changes, start=1):
+        numbers.setdefault(change.t, []).append(str(number))
+    for ax in panels:
+        low, high = ax.dataLim.x0, ax.dataLim.x1
+        for t, those in numbers.items():
+            if low <= t <= high:
+                ax.axvline(t, color="0.35", lw=0.9, ls="--", zorder=1.8)
+                ax.annotate(
+                    ", ".join(those), (t, 1), xycoords=ax.get_xaxis_transform(), xytext=(2, -2),
+                    textcoords="offset points", va="top", fontsize="small", color="0.25",
+                )  # fmt: skip
 
 
 def mark_cut(ax: Axes, least: float, most: float, unit: str) -> None:

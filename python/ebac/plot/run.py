@@ -13,7 +13,7 @@ from ebac._util.arguments import require
 from ebac._util.arrays import Values
 from ebac.plot.columns import plot_columns
 from ebac.plot.decades import limit_of, set_decades
-from ebac.plot.marks import mark_end, no_beta, title, used_axes
+from ebac.plot.marks import mark_changes, mark_end, no_beta, title, used_axes
 from ebac.plot.style import (
     QUANTITIES,
     Picture,
@@ -35,6 +35,10 @@ LOOP = ("x", "f_env", "f_meas", "f_cmd", "f_applied", "work", "damped")
 AROUND, LONG = (0.02, 0.23), 4.0
 #: Width of its panels, over that of the others.
 CONTACT_SHARE = 0.6
+#: Width of the panels of one axis [in], by how many stand side by side: a figure that is too wide is read too small.
+WIDTHS = {1: 8.0, 2: 6.2, 3: 5.0}
+#: A beta that changes by less is constant [N/m]: its panel begins with 1 kN/m, and rounding alone changes it.
+LEAST_CHANGE = 1.0
 #: Label and style of each energy, by the column that it is of.
 ENERGIES: dict[str, tuple[str, dict[str, Any]]] = {
     "work": ("work + damped energy", {"color": "0.75", "lw": 3}),
@@ -81,52 +85,41 @@ def plot_trace(trace: Trace, *, events: Sequence[Event] = ()) -> Picture:
         moving = [name for name in others if (trace[name] != trace[name][:1]).any()]
         return plot_columns(trace, moving or others)
     used = used_axes(trace)
+    with_beta = [axis for axis in used if _has_beta(trace, axis)]
+    constant = [axis for axis in with_beta if len(used) > 1 and _beta_is_constant(trace, axis)]
+    with_beta = [axis for axis in with_beta if axis not in constant]
     panels: list[Panel] = [_position, _force, _energy]
-    if any(_has_beta(trace, axis) for axis in used):
-        panels.insert(2, _beta)
+    if with_beta:  # last where an axis lacks it, so that all else stands side by side
+        panels.insert(2 if with_beta == used else len(panels), _beta)
     contact = _first_contact(trace, used[0]) if len(used) == 1 else None
-    figure = new_figure(1.5 + 8 * len(used), 1.0 + 2.4 * len(panels))
+    figure = new_figure(1.5 + WIDTHS[len(used)] * len(used), 1.0 + 2.4 * len(panels))
     shares = [1.0] * len(used) if contact is None else [1.0, CONTACT_SHARE]
     grid = figure.add_gridspec(len(panels), len(shares), width_ratios=shares)
     for column, axis in enumerate(used):
         above: Axes | None = None
-        for row, draw in enumerate(panels):
-            if draw is _beta and not _has_beta(trace, axis):
-                continue
+        drawn = [draw for draw in panels if draw is not _beta or axis in with_beta]
+        for row, draw in enumerate(drawn):
             above = figure.add_subplot(grid[row, column], sharex=above)
             draw(above, trace, axis, trace)
             if trace.axes > 1 and row == 0:
                 legend(above, columns=6, title=f"axis {axis}")
-            _time_below(above, last=row == len(panels) - 1)
+            _time_below(above, last=row == len(drawn) - 1)
     if contact is not None:
         _enlarge(figure.axes, grid, panels, contact, used[0], trace)
     figure.align_ylabels()
     changes = [event for event in events if event.kind == "parameter"]
-    _mark(figure.axes, changes)
+    mark_changes(figure.axes, changes)
     idle = [str(axis) for axis in range(trace.axes) if axis not in used]
     note = f"\naxis {', '.join(idle)} not in use, not shown" if idle else ""
-    if "law.beta" in trace and _beta not in panels:
+    if constant:
+        several = "axes" if len(constant) > 1 else "axis"
+        note += f"\nbeta is constant on {several} {', '.join(map(str, constant))}, not shown"
+    elif "law.beta" in trace and _beta not in panels:
         note += f"\nbeta is not shown: {no_beta(trace)}"
     for number, change in enumerate(changes, start=1):
         note += f"\n{number}, at {change.t:.4g} s: {change.message}"
     figure.suptitle(title(trace) + note, fontsize="medium")
     return figure
-
-
-def _mark(panels: Sequence[Axes], changes: Sequence[Event]) -> None:
-    """Mark changes in every panel that shows their time, with their numbers along the upper edge."""
-    numbers: dict[float, list[str]] = {}
-    for number, change in enumerate(changes, start=1):
-        numbers.setdefault(change.t, []).append(str(number))
-    for ax in panels:
-        low, high = ax.dataLim.x0, ax.dataLim.x1
-        for t, those in numbers.items():
-            if low <= t <= high:
-                ax.axvline(t, color="0.35", lw=0.9, ls="--", zorder=1.8)
-                ax.annotate(
-                    ", ".join(those), (t, 1), xycoords=ax.get_xaxis_transform(), xytext=(2, -2),
-                    textcoords="offset points", va="top", fontsize="small", color="0.25",
-                )  # fmt: skip
 
 
 def _first_contact(trace: Trace, axis: int) -> Trace | None:
@@ -166,6 +159,11 @@ def _time_below(ax: Axes, *, last: bool) -> None:
 
 def _has_beta(trace: Trace, axis: int) -> bool:
     return "law.beta" in trace and bool(np.isfinite(trace.axis("law.beta", axis)).any())
+
+
+def _beta_is_constant(trace: Trace, axis: int) -> bool:
+    beta = trace.axis("law.beta", axis)
+    return bool(np.ptp(beta[np.isfinite(beta)]) < LEAST_CHANGE)
 
 
 def _position(ax: Axes, trace: Trace, axis: int, whole: Trace) -> None:

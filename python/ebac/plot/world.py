@@ -31,6 +31,9 @@ STEPS, NEAR = 600, 2e-6
 #: A path that is shorter is shown once more, in a frame of its own, and how much about it [m].
 SHORT, AROUND = 0.01, 1e-3
 BODY, SAWN, INSIDE = np.array([0.72, 0.77, 0.83]), np.array([0.6, 0.64, 0.69]), "#c9d3df"
+#: A path that is farther than this from the plane of a cut only seems to go through what is cut there [m].
+BESIDE = 1e-3
+AWAY: dict[str, Any] = {"lw": 0.9, "ls": (0, (1, 2))}
 #: What shows that a body moves.
 MOVES = "#8b4a00"
 
@@ -126,7 +129,8 @@ def _view(ax: Axes, world: World, traces: Sequence[Trace], half: float) -> None:
             _arrow(ax, -end, end, style="<|-|>", shade=MOVES)
     tail = to_view @ [-0.025, 0, 0]
     _arrow(ax, tail, (0, 0))  # where it comes in
-    ax.text(tail[0], tail[1] - 2, "x", ha="right", va="top")
+    words = "handle comes in,\nalong x"
+    ax.text(tail[0] - 1, tail[1], words, ha="right", va="center", fontsize="small")
     ax.set_xlim(*size[:2])
     ax.set_ylim(*size[2:])
     _frame(ax, to_view, 1e3 * half)
@@ -202,9 +206,16 @@ def _cut(ax: Axes, world: World, traces: Sequence[Trace], up: int, half: float) 
     _section(ax, world, up, (0.0, 0.0), half)
     moves = _ends(ax, world, up, half)
     paths = [_path(trace, up) for trace in traces]
+    any_beside = False
     for trace, path in zip(traces, paths, strict=True):
         label = f"handle under {trace.law}" if trace.law else "handle"
-        ax.plot(*1e3 * path, color=colour(trace.law), lw=1.2, label=label)
+        beside = np.abs(_places(trace)[:, 3 - up]) > BESIDE
+        any_beside |= bool(beside.any())
+        near, away = (np.where(hidden, np.nan, 1e3 * path) for hidden in (beside, ~beside))
+        ax.plot(*near, color=colour(trace.law), lw=1.2, label=label)
+        ax.plot(*away, color=colour(trace.law), alpha=0.6, **AWAY)
+    if any_beside:
+        ax.plot([], [], color="0.5", label="before or behind the cut", **AWAY)
     ax.plot([], [], "s", color=INSIDE, mec="black", ms=8, label="body")
     if moves:
         ax.plot([], [], color=MOVES, ls="--", lw=1.2, label="ends of its swing")
