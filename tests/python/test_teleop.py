@@ -737,6 +737,26 @@ def test_command_line(tmp_path: Path) -> None:
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="UDP of the library is Linux's")
+def test_a_master_without_a_slave_shows_where_it_looks_for_one_and_what_to_do(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """It waited silently, and the remedy came when it was stopped."""
+    from typer.testing import CliRunner
+
+    from ebac.cli import app
+    from ebac.cli.teleop import processes
+
+    monkeypatch.setattr(processes, "PATIENCE", 0.3)
+    words = ["teleop", "master", "--peer", "127.0.0.1:9", "--seconds", "0.7"]
+    done = CliRunner().invoke(app, words)
+    first, *later = done.stdout.splitlines()
+    assert first.endswith(", peer 127.0.0.1:9. Ctrl-C stops it.")
+    hint = "master: no slave has answered; start it first, and give its address by --peer (127.0.0.1:9)"
+    assert sum(hint in one for one in later) == 1
+    assert done.exit_code == 1
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="UDP of the library is Linux's")
 def test_an_address_that_is_not_this_machine_s_is_named_with_a_remedy() -> None:
     from typer.testing import CliRunner
 

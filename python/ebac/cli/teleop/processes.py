@@ -23,6 +23,9 @@ SCHEME = typer.Option(
 )
 CUT = 0.2
 REPORT = 5.0
+#: Nobody has answered for so long: time for a hint [s]. A network of the command delays by half a second at most.
+PATIENCE = 2.0
+NO_SLAVE = "no slave has answered; start it first, and give its address by --peer"
 LOST, BACK = 2, 3
 OTHER_SCHEME = (
     "the other side has another scheme, so nothing of it is obeyed; give both the same --scheme"
@@ -88,7 +91,7 @@ def master(
         side = processes.Master(
             scenario, law, chosen, host=host, port=port, peer=where, consent_after=consent_after
         )
-    _run("master", side, seconds, as_json, by_hand=consent_after is None)
+    _run("master", side, seconds, as_json, peer, by_hand=consent_after is None)
 
 
 def slave(
@@ -151,17 +154,25 @@ def network(
     if announce:
         typer.echo(json.dumps({"port": side.port}))
         sys.stdout.flush()
-    _run("network", side, seconds, as_json)
+    _run("network", side, seconds, as_json, slave)
 
 
-def _run(name: str, side: Any, seconds: float | None, as_json: bool, by_hand: bool = False) -> None:
+def _run(
+    name: str,
+    side: Any,
+    seconds: float | None,
+    as_json: bool,
+    peer: str = "",
+    by_hand: bool = False,
+) -> None:
     from ebac.teleop.processes import STATES
 
     if not as_json:
-        output.say(f"{name} on UDP port {side.port}. Ctrl-C stops it.")
+        to = f", peer {peer}" if peer else ""
+        output.say(f"{name} on UDP port {side.port}{to}. Ctrl-C stops it.")
         sys.stdout.flush()
     state, reported, report = None, time.monotonic(), side.run(0)
-    losses, other = 0, False
+    losses, other, hinted = 0, False, name != "master"
     enter = Consent()
     end = time.monotonic() + (inf if seconds is None else seconds)
     with simulated.signalled() as over:
@@ -172,6 +183,10 @@ def _run(name: str, side: Any, seconds: float | None, as_json: bool, by_hand: bo
             if report["other_scheme"] and not other:
                 other = True
                 _tell(f"            {name}: {OTHER_SCHEME}", as_json)
+            if not hinted and report["seconds"] > PATIENCE:
+                hinted = True
+                if not report["arrivals"]["received"] and not other:
+                    _tell(f"{report['seconds']:8.1f} s  {name}: {NO_SLAVE} ({peer})", as_json)
             losses = report["losses"]
             if name != "network" and report["state"] != state:
                 state = report["state"]
@@ -194,9 +209,7 @@ def _run(name: str, side: Any, seconds: float | None, as_json: bool, by_hand: bo
         output.say(f"Stopped: {_line(_own(name, report)).strip()}")
     if name == "master" and not report["arrivals"]["received"]:
         output.fail(
-            OTHER_SCHEME
-            if other
-            else "no slave has answered; start it first, and give its address by --peer",
+            OTHER_SCHEME if other else f"{NO_SLAVE} ({peer})",
             code=output.FAILED,
         )
 
