@@ -29,13 +29,17 @@ def one_law(name: str, option: str = "--law", own: str = _OWN_LAW) -> str:
 
 
 def any_law(word: str, option: str = "--law", *, python: bool = False) -> AnyLaw:
-    """Return the one law that a name, or a word such as "my_laws:Damped", stands for; one in `python` where it may."""
+    """Return the one law that a name, or a word such as "my_laws:Damped", stands for.
+
+    One in `python` where a command takes that: such a command simulates many runs.
+    """
     if _is_own(word) and "," not in word:
         from ebac.laws.making import IN_PYTHON
 
         law = own_law(word, option)
         if not (python or hasattr(law, "_simulate")):
             raise ValueError(f"{option} {word}: {IN_PYTHON}")
+        _tell_slow(law, f"{option} {word}")
         return law
     return one_law(word, option, own=f"; {FORM}")
 
@@ -71,8 +75,10 @@ def law_names(given: Sequence[str], option: str = "--law", own: str = _OWN_LAW) 
     return chosen
 
 
-def laws(given: Sequence[str], option: str = "--law") -> dict[str, AnyLaw]:
+def laws(given: Sequence[str], option: str = "--law", *, many: bool = False) -> dict[str, AnyLaw]:
     """Return laws by their names in tables: those of `law_names`, and laws of one's own, `file.py:Name`.
+
+    `many` is whether the command simulates many runs, in which a law in Python takes its time.
 
     Raises
     ------
@@ -93,6 +99,8 @@ def laws(given: Sequence[str], option: str = "--law") -> dict[str, AnyLaw]:
                 f"{option} {word}: its name is {name}, as that of another law; give its class another `name`, or, of "
                 "several objects of one class, each a `name` of its own"
             )
+        if many:
+            _tell_slow(law, f"{option} {word}")
         found[name] = law
     return found
 
@@ -107,6 +115,17 @@ def own_words(given: Sequence[str], option: str = "--law") -> dict[str, str]:
 
 def _is_own(word: str) -> bool:
     return ":" in word or word.endswith(".py")
+
+
+def _tell_slow(law: AnyLaw, given: str) -> None:
+    """Say on stderr that many runs of a law take their time where it is written in Python."""
+    from ebac.cli import output
+
+    if not hasattr(law, "_simulate"):
+        output.note(
+            f"{given}: is written in Python, so that a run takes about ten times as long as one of a compiled law, and "
+            "no two of them run at the same time; simulate less first, or write it in C++ (docs/how-to/write_a_law.md)"
+        )
 
 
 def _tell_tuned(names: Sequence[str]) -> None:

@@ -49,7 +49,7 @@ def engines(
     from ebac.studies.engines import engines as compare
 
     with output.refusing():
-        laws = by_name.laws(law or LAWS)
+        laws = by_name.laws(law or LAWS, many=True)
         base = _scenario(setup)
         folder = to.folder("engines", as_json=as_json)
         with output.counting("simulating", quiet=as_json) as progress:

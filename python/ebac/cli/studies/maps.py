@@ -74,7 +74,7 @@ def map_(
 
     with output.refusing():
         x, y = _quantities(kind)
-        laws = by_name.laws(law or ["ebac"])
+        laws = by_name.laws(law or ["ebac"], many=True)
         base = from_options.scenario(setup, seconds=2.0)
         xs = _values("x", AXES[x], base, side, x_low, x_high)
         ys = _values("y", AXES[y], base, side, y_low, y_high)

@@ -110,7 +110,7 @@ def random_worlds(
     from ebac.studies.world_kinds import KINDS
 
     with output.refusing():
-        laws = by_name.laws(law or ["ebac"])
+        laws = by_name.laws(law or ["ebac"], many=True)
         folder = to.folder("random-worlds", as_json=as_json)
         interrupts.keeping(
             "nothing was written; the same command starts from the beginning, and fewer --hands, --kind or --device "

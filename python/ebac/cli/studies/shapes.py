@@ -71,7 +71,7 @@ def shapes(
     from ebac.studies.shapes import shapes as compare
 
     with output.refusing():
-        laws = by_name.laws(law or LAWS)
+        laws = by_name.laws(law or LAWS, many=True)
         devices = output.words(device) or DEVICES
         for name in devices:
             setting.known_device(name)

@@ -83,7 +83,7 @@ def stiffest(
     from ebac.studies.stiffest import LADDER
 
     with output.refusing():
-        laws = changed_laws.beside(by_name.laws(law or ["all"]), change or [])
+        laws = changed_laws.beside(by_name.laws(law or ["all"], many=True), change or [])
         _check(share, wall_stiffness or ())
         base = from_options.scenario(device, run)
         _check_wall(base, run.scenario)

@@ -82,7 +82,7 @@ def study(
     from ebac.studies.study import LAWS
 
     with output.refusing():
-        laws = changed_laws.beside(by_name.laws(law or LAWS), change or [])
+        laws = changed_laws.beside(by_name.laws(law or LAWS, many=True), change or [])
         people = hands.operators(approach)
         given: dict[str, Any] = {
             "base": from_options.scenario(device, length),

@@ -47,7 +47,7 @@ def tissue(
     from ebac.studies.tissue import tissue as compare
 
     with output.refusing():
-        laws = by_name.laws(law or LAWS)
+        laws = by_name.laws(law or LAWS, many=True)
         folder = to.folder("tissue", as_json=as_json)
         with output.counting("simulating", quiet=as_json) as progress:
             found = compare(list(laws.values()), depth=depth, speed=speed, progress=progress)

@@ -113,7 +113,7 @@ def worst(
     from ebac.studies.worst import worst as search
 
     with output.refusing():
-        laws = by_name.laws(law or ["ebac"])
+        laws = by_name.laws(law or ["ebac"], many=True)
         chosen = changed_laws.instead(laws, change or [])
         base = from_options.scenario(device, length)
         wanted = by_name.one_condition(condition or options.usual_condition(length))

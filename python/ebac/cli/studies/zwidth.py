@@ -108,7 +108,7 @@ def zwidth(
     from ebac.studies.zwidth import zwidth as search
 
     with output.refusing():
-        laws = changed_laws.beside(by_name.laws(law or ["all"]), change or [])
+        laws = changed_laws.beside(by_name.laws(law or ["all"], many=True), change or [])
         base = from_options.scenario(hand, device, length, seconds=3.0)
         base = base.replace(**setting.given(seed=seed))
         _check(most_damping, least_stiffness, most_stiffness, epsilon)
