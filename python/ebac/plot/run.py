@@ -92,7 +92,7 @@ def plot_trace(trace: Trace, *, events: Sequence[Event] = ()) -> Picture:
     if with_beta:  # last where an axis lacks it, so that all else stands side by side
         panels.insert(2 if with_beta == used else len(panels), _beta)
     contact = _first_contact(trace, used[0]) if len(used) == 1 else None
-    figure = new_figure(1.5 + WIDTHS[len(used)] * len(used), 1.0 + 2.4 * len(panels))
+    figure = new_figure(1.5 + WIDTHS[min(len(used), 3)] * len(used), 1.0 + 2.4 * len(panels))
     shares = [1.0] * len(used) if contact is None else [1.0, CONTACT_SHARE]
     grid = figure.add_gridspec(len(panels), len(shares), width_ratios=shares)
     for column, axis in enumerate(used):
