@@ -168,9 +168,7 @@ def test_whatever_stands_in_a_file_is_taken_or_refused_by_its_place(
 
 def test_values_of_numpy_become_plain_ones() -> None:
     known = drives.load("copley-accelnet", nodes=[1]).nodes[0].profile
-    changed = known.replace(
-        motor__peak_torque=np.float32(0.125), heartbeat__master=np.int64(100)
-    )
+    changed = known.replace(motor__peak_torque=np.float32(0.125), heartbeat__master=np.int64(100))
     assert changed == known.replace(motor__peak_torque=0.125, heartbeat__master=100)
     assert {type(value) for value in changed.values.values()} <= {int, float, str, bool}
     with pytest.raises(drives.ProfileError, match="torque_constant = true: must be a number"):

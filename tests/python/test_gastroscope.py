@@ -150,9 +150,7 @@ def test_a_command_that_is_no_number_moves_nothing(command: dict[str, float], sa
 @pytest.mark.parametrize("radius", [nan, inf, -0.1, 0.0, 1e9])
 def test_a_radius_that_no_lumen_has_is_refused(radius: float) -> None:
     line = [(0.0, 0.0, -0.02 * i) for i in range(4)]
-    with pytest.raises(
-        ValueError, match=r"Lumen\.radii\[2\] = .* m: must lie in \[0\.001, 1\] m"
-    ):
+    with pytest.raises(ValueError, match=r"Lumen\.radii\[2\] = .* m: must lie in \[0\.001, 1\] m"):
         Lumen(points=line, radii=[0.01, 0.01, radius, 0.01])
     with pytest.raises(ValueError, match="0 points and 1 radii"):
         Lumen(radii=[0.01])
