@@ -233,19 +233,19 @@ def test_progress_rises_to_the_end() -> None:
     assert {total for _, total in seen} == {14}
 
 
+@pytest.mark.real_time
 def test_a_keyboard_interrupt_stops_soon_and_keeps_what_is_done() -> None:
     long = [s.replace(seconds=2000.0) for s in scenarios(30)]
     asked: list[float] = []
 
     def interrupt(done: int, total: int) -> None:
         if done >= 2 and not asked:
-            asked.append(time.process_time())
+            asked.append(time.perf_counter())
             os.kill(os.getpid(), signal.SIGINT)
 
     with pytest.raises(ebac.SweepInterrupted) as stopped:
         sweep([*scenarios(2), *long], "tca", threads=2, progress=interrupt)
-    # 0.2 s of two threads and what follows; by the clock it depends on what else the machine does
-    assert time.process_time() - asked[0] < 2 * 0.2 + 0.3
+    assert time.perf_counter() - asked[0] < 0.2 + 0.3  # what is promised, and a busy machine
     result = stopped.value.result
     assert result["done"][:2].all()
     assert 2 <= result["done"].sum() < 32
