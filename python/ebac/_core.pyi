@@ -453,7 +453,7 @@ class Port:
     damped : float
         energy the device's known damping took: with the observer sum of b v^2 dt, estimated; without at least sum of (b/dt) max(|dx| - count, 0)^2 [J].
     world_v : float
-        velocity of the virtual world's surface, where it moves and tells so [m/s].
+        velocity of the virtual world's surface, where it moves and declares it [m/s].
     """
 
     @staticmethod
@@ -569,7 +569,7 @@ class Port:
     @property
     def world_v(self) -> float:
         """
-        velocity of the virtual world's surface, where it moves and tells so [m/s]
+        velocity of the virtual world's surface, where it moves and declares it [m/s]
         """
     @world_v.setter
     def world_v(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...

@@ -51,8 +51,8 @@ struct EbacShared {
     return std::clamp(force, -params.peak_force, params.peak_force);
   }
 
-  /// Way of the world's surface over the last interval [m]. With the observer a world is met, and tells its velocity,
-  /// for when the command acts: it was told with the force that acted now.
+  /// Way of the world's surface over the last interval [m]. With the observer a world is met, and declares its velocity,
+  /// for when the command acts: it was declared with the force that acted now.
   double surface(const Port& port) EBAC_RT {
     const double mean = 0.5 * (world_v + port.world_v);
     world_v = port.world_v;

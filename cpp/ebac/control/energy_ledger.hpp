@@ -16,7 +16,7 @@ namespace ebac {
 /// An account that only grows would later pay for any instability, so it leaks, slowly, towards the
 /// energy that the last contact can have stored.
 ///
-/// Where the surface of the virtual world moves and tells so, its own work is not the law's: -F_w dp
+/// Where the surface of the virtual world moves and declares it, its own work is not the law's: -F_w dp
 /// with the way dp of the surface and the part F_w of the mean force, at most what the world had
 /// asked for. The account is then of F_bar s - F_w dp.
 class EnergyLedger {

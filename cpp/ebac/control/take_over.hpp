@@ -22,7 +22,7 @@ namespace ebac {
 ///      directions begin anew). Of another law it is the difference of each tick, as a law without memory needs some
 ///      to reach its force, and of the force only what was there in the first tick; it ends where a contact begins.
 ///      The command lies between the law's and that of the last tick before.
-///   3. What the contact stores by the change, or no longer stores, no motion has paid for: accounts are told.
+///   3. What the contact stores by the change, or no longer stores, no motion has paid for: accounts get it.
 class TakeOver {
  public:
   static constexpr double kPass = 0.05;    // s
@@ -124,7 +124,7 @@ class TakeOver {
   /// The share of a contact that throws nobody.
   static double harmless(const ContactForce& contact) EBAC_RT {
     const double size = contact.force.norm();
-    const double stored = 0.5 * size * contact.depth;  // J; 0 where a world tells no depth
+    const double stored = 0.5 * size * contact.depth;  // J; 0 where a world has no depth
     const double by_force = size > kSmall ? kSmall / size : 1;
     return stored > 0 ? std::max(by_force, std::min(1.0, kThrows / stored)) : by_force;
   }

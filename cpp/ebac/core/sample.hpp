@@ -173,7 +173,7 @@ struct Port {
           "energy the device's known damping took: with the observer sum of b v^2 dt, estimated; "
           "without at least sum of (b/dt) max(|dx| - count, 0)^2"},
         F{"world_v", &Port::world_v, "m/s",
-          "velocity of the virtual world's surface, where it moves and tells so"},
+          "velocity of the virtual world's surface, where it moves and declares it"},
     };
   }
 };

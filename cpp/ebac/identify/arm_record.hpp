@@ -46,7 +46,7 @@ struct ArmGains {
   double late = 0;     // s, the rest of it
 };
 
-/// A log of one hand, and how well eq. (4) foretells it.
+/// A log of one hand, and how well eq. (4) predicts it.
 ///
 /// The recorded force drives the hand; its position is predicted one tick ahead by a Kalman filter
 /// and compared with the encoder. Force noise enters as an input, a count as noise of the output,

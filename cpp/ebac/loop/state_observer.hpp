@@ -46,7 +46,7 @@ class StateObserver {
   /// Begins anew in the next tick.
   void forget() EBAC_RT { forgot_ = true; }
 
-  /// counts, f_meas, currents -> est; `counted` tells of every axis whether new counts came.
+  /// counts, f_meas, currents -> est; `counted` is, for each axis, whether new counts came.
   void step(const Reading& reading, const std::array<bool, kMaxAxes>& counted, double dt,
             std::span<Axis> axes) EBAC_RT;
 

@@ -32,7 +32,7 @@ inline double push(double stiffness, double damping, double depth, double speed)
 }
 
 /// A flat wall. It may move to and fro along its normal: what it does to the hand by that is work of
-/// the world, which it tells by the velocity of its surface.
+/// the world, which it declares as the velocity of its surface.
 struct Wall {
   double stiffness = 10e3;      // N/m
   double damping = 0;           // N s/m

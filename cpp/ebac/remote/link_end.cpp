@@ -42,7 +42,7 @@ void LinkEnd::begin(double t, double elapsed) EBAC_RT {
   t_ = t;
   sensor::Datagram in;
   for (int i = 0; i < kMostAtOnce; ++i) {
-    // An error tells that nobody listened to an earlier datagram: the silence is seen anyway.
+    // An error shows that nobody listened to an earlier datagram: the silence is seen anyway.
     if (const int error = socket_.receive(in); error != 0) {
       if (error == EAGAIN) break;
       continue;
@@ -107,7 +107,7 @@ void LinkEnd::agree() EBAC_RT {
 
 void LinkEnd::tell(teleop::LinkState before) EBAC_RT {
   const teleop::LinkState state = watch().state();
-  if (far_ended_) return;  // has been told
+  if (far_ended_) return;  // it knows
   if (watch().losses() > report_.losses) note(EventOf::kLost, watch().silent());
   if (state == teleop::LinkState::kLost && before == teleop::LinkState::kWaiting &&
       watch().losses() == report_.losses) {

@@ -134,9 +134,9 @@ class LinkEnd {
 
   /// The hand agrees to go on after the link was lost.
   void consent() noexcept { consent_.store(true, std::memory_order_relaxed); }
-  /// The drives here have stopped by a fault: the other side is told with every packet.
+  /// The drives here have stopped by a fault: the other side hears it with every packet.
   void fail(std::uint32_t fault) noexcept { fault_.store(fault, std::memory_order_relaxed); }
-  /// After the loop has ended: tells the other side, once.
+  /// After the loop has ended: informs the other side, once.
   void leave() noexcept;
   /// What it has met, as of the loop's last tick.
   LinkReport look();

@@ -11,7 +11,7 @@
 /// Bilateral teleoperation: a master and a slave, joined by packets.
 namespace ebac::teleop {
 
-/// What one side tells the other, once a tick. On the wire 116 bytes, little-endian:
+/// What one side sends the other, once a tick. On the wire 116 bytes, little-endian:
 ///
 ///     offset  type    content
 ///      0      u8[2]   'E' 'T'

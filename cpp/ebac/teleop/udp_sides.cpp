@@ -30,7 +30,7 @@ template <class Take>
 void receive_all(sensor::UdpSocket& socket, Take take) noexcept {
   sensor::Datagram in;
   for (int i = 0; i < kMostAtOnce; ++i) {
-    // An error tells that nobody listened to an earlier datagram: the silence is seen anyway.
+    // An error shows that nobody listened to an earlier datagram: the silence is seen anyway.
     if (const int error = socket.receive(in); error != 0) {
       if (error == EAGAIN) return;
       continue;

@@ -108,7 +108,7 @@ class BlendedModel {
   double gain() const EBAC_RT { return gain_; }
   /// Energy that changes of the model can have given to the handle [J].
   double given() const EBAC_RT { return given_; }
-  /// Energy that the motion of the surface, as the engine tells it, can have given [J].
+  /// Energy that the motion of the surface, as the engine reports it, can have given [J].
   double moved() const EBAC_RT { return moved_; }
 
  private:
@@ -167,7 +167,7 @@ class BlendedModel {
   Difference rest_;
   double since_ = 0;           // s, of the model
   double gain_ = 1;            // share
-  bool leaving_ = false;       // the engine tells of no surface any more
+  bool leaving_ = false;       // the engine reports no surface any more
   Axes x_ = Axes::Zero();      // m, the handle in the last tick
   Axes aside_ = Axes::Zero();  // direction of the last force less that of the slope of the energy
   double push_ = 0;            // N, last

@@ -9,7 +9,7 @@
 
 namespace ebac::world {
 
-/// The handle, as an engine is told.
+/// The handle, as an engine gets it.
 struct EnginePose {
   Axes x = Axes::Zero();  // m
   Axes v = Axes::Zero();  // m/s
