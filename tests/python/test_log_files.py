@@ -378,6 +378,26 @@ def test_a_file_of_another_kind_is_refused(tmp_path: Path, extension: str, libra
     assert f"run.{extension}: not a" in invoke("info", file, code=2)
 
 
+@pytest.mark.parametrize(
+    ("extension", "library"), [("npz", "numpy"), ("mat", "scipy"), ("h5", "h5py")]
+)
+def test_a_damaged_file_is_refused_by_its_name(
+    tmp_path: Path, extension: str, library: str
+) -> None:
+    """The error was that of zlib, SciPy or HDF5, which is no ValueError and names no file."""
+    pytest.importorskip(library)
+    file = tmp_path / f"run.{extension}"
+    ebac.simulate(ebac.Scenario(seconds=0.2), "ebac").save(file)
+    data = bytearray(file.read_bytes())
+    step = len(data) // 50
+    for at in range(step, len(data), step):
+        data[at] ^= 0xFF
+    for damaged in (bytes(data), bytes(data[len(data) // 2 :]), b"", b"\0" * 200):
+        file.write_bytes(damaged)
+        with pytest.raises(ValueError, match=rf"run\.{extension}: not a"):
+            ebac.load(file)
+
+
 def test_an_empty_line_below_the_headings_is_no_end(tmp_path: Path) -> None:
     (tmp_path / "log.csv").write_text("t [s],x [m]\n\n0.0,0.001\n0.001,0.002\n", encoding="utf-8")
     assert ebac.load(tmp_path / "log.csv")["x"].tolist() == [0.001, 0.002]

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -22,13 +23,11 @@ def from_parquet(path: Path) -> Trace:
     import pyarrow
     import pyarrow.parquet
 
-    try:
+    with _whole(path, "a Parquet file"):
         table = pyarrow.parquet.read_table(path)
-    except pyarrow.ArrowInvalid as error:
-        raise ValueError(f"{path}: not a Parquet file ({_first(error)})") from None
-    about = _texts(table.schema.metadata or {})
-    flat = {field.name: table[field.name].to_numpy() for field in table.schema}
-    infos = {field.name: _texts(field.metadata or {}) for field in table.schema}
+        about = _texts(table.schema.metadata or {})
+        flat = {field.name: table[field.name].to_numpy() for field in table.schema}
+        infos = {field.name: _texts(field.metadata or {}) for field in table.schema}
     axes = _axes(path, about)
     data, first = gathered(flat, list(flat), axes)
     columns = {
@@ -43,11 +42,8 @@ def from_mat(path: Path) -> Trace:
     needs("scipy", "log")
     from scipy.io import loadmat
 
-    with path.open("rb") as file:
-        try:
-            found = loadmat(file, simplify_cells=True)
-        except (ValueError, TypeError, NotImplementedError, OSError) as error:
-            raise ValueError(f"{path}: not a MATLAB file ({_first(error)})") from None
+    with path.open("rb") as file, _whole(path, "a MATLAB file"):
+        found = loadmat(file, simplify_cells=True)
     about, units, meanings, names = (
         _words(found, part) for part in ("about", "units", "meanings", "names")
     )
@@ -74,11 +70,7 @@ def from_hdf5(path: Path) -> Trace:
 
     with path.open("rb"):  # h5py names neither a missing file nor a folder
         pass
-    try:
-        file = h5py.File(path, "r")
-    except OSError as error:
-        raise ValueError(f"{path}: not an HDF5 file ({_first(error)})") from None
-    with file:
+    with _whole(path, "an HDF5 file"), h5py.File(path, "r") as file:
         about = {name: str(text) for name, text in file.attrs.items()}
         data = {name: file[name][()] for name in file}
         columns = {
@@ -86,6 +78,15 @@ def from_hdf5(path: Path) -> Trace:
             for name in file
         }
     return _trace(path, data, columns, about)
+
+
+@contextmanager
+def _whole(path: Path, what: str) -> Iterator[None]:
+    """Say of a file that cannot be read that it is none of its kind; of a damaged one a library raises all sorts."""
+    try:
+        yield
+    except Exception as error:
+        raise ValueError(f"{path}: not {what}, or damaged ({_first(error)})") from None
 
 
 def _trace(
