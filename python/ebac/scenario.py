@@ -314,12 +314,13 @@ class Scenario:
 def scenario_of_log(text: str) -> Scenario | None:
     """Return the scenario that a log was written with; None without one.
 
-    None with a warning, too, where a file or a package that it needs is missing: the rows are worth more than that.
+    None with a warning, too, where a file or a package that it needs is missing, or it is that of another version: the
+    rows are worth more than that.
     """
     if not text:
         return None
     try:
         return Scenario.from_toml(text)
-    except (OSError, ImportError) as error:
+    except (ValueError, OSError, ImportError) as error:
         warnings.warn(f"the scenario in the log is not used: {error}", stacklevel=2)
         return None

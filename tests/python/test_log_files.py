@@ -398,6 +398,24 @@ def test_a_damaged_file_is_refused_by_its_name(
             ebac.load(file)
 
 
+@pytest.mark.parametrize(
+    ("extension", "library"),
+    [("npz", "numpy"), ("parquet", "pyarrow"), ("mat", "scipy"), ("h5", "h5py")],
+)
+def test_a_scenario_that_is_none_does_not_cost_the_rows(
+    tmp_path: Path, extension: str, library: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """One of another version, say; a log was read all the same, every other format refused."""
+    pytest.importorskip(library)
+    trace = ebac.simulate(ebac.Scenario(seconds=0.05), "ebac")
+    monkeypatch.setattr(ebac.Scenario, "to_toml", lambda self: "[hand]\nmas = 1.0\n")
+    trace.save(tmp_path / f"run.{extension}")
+    with pytest.warns(UserWarning, match=r"the scenario in the log is not used: hand\.mas"):
+        back = ebac.load(tmp_path / f"run.{extension}")
+    assert back.scenario is None
+    assert len(back) == len(trace)
+
+
 def test_an_empty_line_below_the_headings_is_no_end(tmp_path: Path) -> None:
     (tmp_path / "log.csv").write_text("t [s],x [m]\n\n0.0,0.001\n0.001,0.002\n", encoding="utf-8")
     assert ebac.load(tmp_path / "log.csv")["x"].tolist() == [0.001, 0.002]
