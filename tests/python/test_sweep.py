@@ -320,6 +320,21 @@ def test_a_folder_of_another_sweep_is_refused(tmp_path: Path) -> None:
     assert_same_bits(fresh, sweep(scenarios(3), "eba", out=out))
 
 
+def test_a_damaged_folder_is_continued_or_begun_anew(tmp_path: Path) -> None:
+    """As after a power cut: a bundle was a `BadZipFile` without a name, a manifest refused even a new start."""
+    out = tmp_path / "sweep"
+    whole = sweep(scenarios(3), "tca", out=out, bundle=1)
+    first, second, _ = sorted(out.glob("bundle-*"))
+    first.write_bytes(first.read_bytes()[:200])
+    second.write_bytes(b"")
+    assert_same_bits(sweep(scenarios(3), "tca", out=out, bundle=1), whole)
+    for text in ("", '{"runs": 3', "[1]"):
+        (out / "sweep.json").write_text(text, encoding="utf-8")
+        with pytest.raises(ValueError, match=r"sweep\.json: is damaged; .*resume=False"):
+            sweep(scenarios(3), "tca", out=out, bundle=1)
+    assert_same_bits(sweep(scenarios(3), "tca", out=out, bundle=1, resume=False), whole)
+
+
 @pytest.mark.parametrize("resume", [True, False])
 def test_a_folder_that_another_sweep_writes_to_is_refused(tmp_path: Path, resume: bool) -> None:
     """Its bundles were mixed with those of the other, and a resumed sweep had numbers of another law."""

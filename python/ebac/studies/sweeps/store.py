@@ -104,26 +104,40 @@ class Store:
 
     def _begin(self, about: dict[str, Any], *, resume: bool) -> None:
         manifest = self.folder / MANIFEST
-        found = json.loads(manifest.read_text(encoding="utf-8")) if manifest.exists() else None
-        if found is not None and resume and found != about:
+        found = self._found(manifest) if resume else None
+        if found is not None and found != about:
             other = next(name for name in about if found.get(name) != about[name])
             raise ValueError(
                 f"{self.folder}: holds another sweep ({other}: {found.get(other)}, now {about[other]}); "
                 "give another folder, or resume=False to start anew in this one"
             )
-        if found is None or not resume:
+        if found is None:
             manifest.unlink(missing_ok=True)
             for old in self.folder.glob("bundle-*.npz"):
                 old.unlink()
             self._write(MANIFEST, lambda file: file.write(json.dumps(about, indent=2).encode()))
 
+    def _found(self, manifest: Path) -> dict[str, Any] | None:
+        """Return what is known of the sweep in the folder, None where there is none."""
+        if not manifest.exists():
+            return None
+        try:
+            return dict(json.loads(manifest.read_bytes()))
+        except (TypeError, ValueError):
+            raise ValueError(
+                f"{manifest}: is damaged; give another folder, or resume=False to start anew in this one"
+            ) from None
+
     def load(self, bundle: int) -> Columns | None:
-        """Return what a bundle gave, None when it has not been done."""
+        """Return what a bundle gave, None when it has not been done, or its file is damaged."""
         path = self._path(bundle)
         if not path.exists():
             return None
-        with np.load(path, allow_pickle=False) as archive:
-            return {name: archive[name] for name in archive.files}
+        try:  # NumPy leaves a file open that is none of its own
+            with path.open("rb") as file, np.load(file, allow_pickle=False) as archive:
+                return {name: archive[name] for name in archive.files}
+        except Exception:  # a damaged archive has a dozen errors: it is done again
+            return None
 
     def save(self, bundle: int, columns: Columns) -> None:
         """Write what a bundle gave."""
