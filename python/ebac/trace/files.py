@@ -75,8 +75,8 @@ def npz_parts(path: str | Path) -> dict[str, Any]:
     ValueError
         When it is not such an archive.
     """
-    try:
-        with np.load(path, allow_pickle=False) as archive:
+    try:  # NumPy leaves a file open that is none of its own
+        with Path(path).open("rb") as file, np.load(file, allow_pickle=False) as archive:
             about = json.loads(str(archive["about"]))
             data = {name: archive[name] for name in about["columns"]}
     except Exception as error:  # a damaged archive has a dozen errors
