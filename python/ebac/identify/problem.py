@@ -7,7 +7,7 @@ from copy import copy
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from math import sqrt
-from typing import TypeAlias
+from typing import Any, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -38,16 +38,12 @@ class Problem:
     make: Make = field(default_factory=lambda: arm_record)
     folds: tuple[Fold | None, ...] | None = None  # by default as the targets repeat
     drift: float = 0.0  # N/sqrt(s), of every force reading
-    records: tuple[ArmRecord, ...] = field(init=False)
     doubt: Doubt = field(init=False)  # moves with the search
     unseen: Doubt = field(init=False)  # does not, but widens the intervals
 
     def __post_init__(self) -> None:
         """Hand the recordings to the core."""
-        made = [
-            self.make(r, target) for r, target in zip(self.recordings, self.targets, strict=True)
-        ]
-        object.__setattr__(self, "records", tuple(made))
+        self.records  # noqa: B018 - refuses what cannot be handed
         if self.folds is None:
             pairs = zip(self.recordings, self.targets, strict=True)
             object.__setattr__(self, "folds", tuple(by_target(r, target) for r, target in pairs))
@@ -61,6 +57,16 @@ class Problem:
         object.__setattr__(self, "unseen", doubt_of(self, {"bend": BEND} | driven))
         object.__setattr__(self, "parameters", self._within_reach())
 
+    @cached_property
+    def records(self) -> tuple[ArmRecord, ...]:
+        """The recordings in the core."""
+        pairs = zip(self.recordings, self.targets, strict=True)
+        return tuple(self.make(r, target) for r, target in pairs)
+
+    def __getstate__(self) -> dict[str, Any]:
+        """Leave out what cannot be pickled, and is made again where it is asked for."""
+        return {name: value for name, value in self.__dict__.items() if name != "records"}
+
     def _within_reach(self) -> Parameters:
         """Return the parameters, a delay in doubt bounded by as far off as it may be, in a uniform distribution."""
         p, low, high = self.parameters, self.parameters.low.copy(), self.parameters.high.copy()
@@ -71,8 +77,8 @@ class Problem:
 
     def drifting(self, drift: float) -> Problem:
         """Return the same with another drift of the force [N/sqrt(s)]."""
-        out = copy(self)  # nothing of the records depends on it
-        object.__setattr__(out, "drift", drift)
+        out = copy(self)
+        out.__dict__.update(drift=drift, records=self.records)  # nothing of them depends on it
         return out
 
     def wander(self, drift: float) -> tuple[float, float]:
