@@ -352,3 +352,19 @@ def test_a_column_takes_a_list(trace: ebac.Trace) -> None:
     assert (trace.with_column("t", still)["t"] == 0).all()
     with pytest.raises(ValueError, match=r"t: shape \(1,\), must be"):
         trace.with_column("t", [0.0])
+
+
+@pytest.mark.parametrize("value", [None, "a", 1j])
+def test_a_column_holds_numbers_alone(trace: ebac.Trace, value: Any) -> None:
+    """With None it was saved as NPZ, which could not be read again."""
+    with pytest.raises(TypeError, match=r"x: values of type .*, must be real numbers"):
+        trace.with_column("x", np.array([value] * len(trace)))
+
+
+def test_a_column_is_copied_and_cannot_be_written(trace: ebac.Trace) -> None:
+    x = np.zeros(trace["x"].shape)
+    other = trace.with_column("x", x)
+    x[:] = 1.0
+    assert not other["x"].any()
+    with pytest.raises(ValueError, match="read-only"):
+        other["x"][:] = 1.0

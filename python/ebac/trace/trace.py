@@ -175,7 +175,7 @@ class Trace:
         name : str
             Of the column.
         values : array_like
-            In the shape and unit of the column.
+            In the shape and unit of the column; copied.
 
         Raises
         ------
@@ -183,8 +183,13 @@ class Trace:
             When there is no such column.
         ValueError
             When the shape is another.
+        TypeError
+            When they are no real numbers.
         """
-        column = np.asarray(values)
+        column = np.array(values)
+        if column.dtype.kind not in "biuf":
+            raise TypeError(f"{name}: values of type {column.dtype}, must be real numbers")
+        column.setflags(write=False)
         if column.shape != self[name].shape:
             raise ValueError(f"{name}: shape {column.shape}, must be {self[name].shape}")
         return self._with({**self._data, name: column})
