@@ -89,7 +89,7 @@ def test_an_interrupt_keeps_the_best_so_far(monkeypatch: pytest.MonkeyPatch) -> 
         ({"law": "tca-dampd"}, "did you mean 'tca-damped'"),
         ({"law": object()}, "search the parameters of your own with ebac.study"),
         ({"ranges": {"kq": (0, 1)}}, "kq"),
-        ({"ranges": {"kp": (0, 11)}}, r"kp from 0 to 11 1: must lie in \[0, 10\]"),
+        ({"ranges": {"kp": (0, 11)}}, r"kp from 0 to 11: must lie in \[0, 10\]"),
         ({"evaluations": 1}, "must be at least 2"),
     ],
 )

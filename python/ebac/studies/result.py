@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from ebac import _core
 from ebac._util import row_files, verdicts
-from ebac._util.arguments import require_path
+from ebac._util.arguments import require_path, whole
 from ebac.laws import design
 from ebac.laws.tuned_laws import on_its_observer
 from ebac.operators import Operators
@@ -195,7 +195,16 @@ class Study:
             )
 
     def trace(self, run: int) -> Trace:
-        """Simulate one run again, with every row; a run that stopped on a fault gives its rows too."""
+        """Simulate one run again, with every row; a run that stopped on a fault gives its rows too.
+
+        Parameters
+        ----------
+        run : int
+            Its place in the columns, from 0, as `Failure.run`.
+        """
+        last = len(self.columns["law"]) - 1
+        if not 0 <= whole("run", run) <= last:
+            raise ValueError(f"run = {run}: must lie in [0, {last}], as `run` of a failure")
         place = run % len(self.scenarios)
         law = self.laws[str(self.columns["law"][run])]
         scenario = on_its_observer(self.scenarios[place], law)

@@ -6,6 +6,7 @@ import warnings
 from collections.abc import Sequence
 from concurrent.futures import Executor
 from pathlib import Path
+from types import NoneType
 
 import numpy as np
 from numpy.typing import NDArray
@@ -66,6 +67,7 @@ def study(
         population has.
     """
     require(population, Operators, "ebac.study", "a population, an Operators")
+    require(base, (Scenario, NoneType), "ebac.study", "a Scenario as its base")
     if conditions is None:
         conditions = ["d1K10" if base is None else "as-given"]
     chosen = tuple(find(conditions))

@@ -8,7 +8,7 @@ from functools import partial
 from typing import Any
 
 from ebac._util import formatting
-from ebac._util.arguments import require
+from ebac._util.arguments import number, require, several, whole
 from ebac._util.cores import thread_count
 from ebac._util.progress import Progress
 from ebac.laws import AnyLaw, design, law_name
@@ -23,6 +23,8 @@ from ebac.studies.scenario_changes import truth
 from ebac.studies.slower_hands import no_quicker
 from ebac.trace import Trace
 
+#: Numbers that are whole.
+WHOLE = ("evaluations", "seed")
 #: Runs per family, unless others are asked for; fewer find less.
 EVALUATIONS = 2000
 
@@ -168,13 +170,16 @@ def worst(
     ValueError
         For a number out of range, a family or condition that does not exist, or a condition that changes the hand.
     """
-    where = _condition(condition, base or Scenario())
-    scenario = on_its_observer(where.made(where.change(base or Scenario())), law)
+    base = Scenario() if base is None else base
+    require(base, Scenario, "ebac.worst", "a Scenario as its base")
+    where = _condition(condition, base)
+    scenario = on_its_observer(where.made(where.change(base)), law)
     made = design(law, *known_under(where, scenario))
     declared = getattr(made, "pull", None)
     most = pull if pull is not None else max(PULL, declared or 0.0)
     _check(evaluations=(evaluations, 40, 10**7), seed=(seed, 0, 2**31 - 1), pull=(most, 1e-3, 1e3))
-    names = [family] if isinstance(family, str) else family or families(most)
+    asked = list(families(most)) if family is None else family
+    names = [asked] if isinstance(asked, str) else several("worst: family", asked)
     wanted = [find_family(n, most) for n in dict.fromkeys(names)]
     if seconds is not None:
         _check(seconds=(seconds, 0.1, 3600))
@@ -221,8 +226,7 @@ def _condition(given: str | Condition, base: Scenario) -> Condition:
 
 def _check(**numbers: tuple[float, float, float]) -> None:
     for name, (value, low, high) in numbers.items():
-        if not low <= value <= high:
+        named = f"worst: {name}"
+        if not low <= (whole if name in WHOLE else number)(named, value) <= high:
             unit = {"pull": " N", "pull_rate": " N/s", "seconds": " s"}.get(name, "")
-            raise ValueError(
-                f"worst: {name} = {value:g}{unit}: must lie in [{low:g}, {high:g}]{unit}"
-            )
+            raise ValueError(f"{named} = {value:g}{unit}: must lie in [{low:g}, {high:g}]{unit}")

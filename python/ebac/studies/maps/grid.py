@@ -64,6 +64,11 @@ def stability_map(
     """
     scenario = Scenario(seconds=2.0) if base is None else base
     require(scenario, Scenario, "ebac.stability_map", "a Scenario as its base")
+    names = list(name_laws(law, "a map"))
+    if len(names) != 1:
+        raise ValueError(
+            f"stability_map: law = {', '.join(names)}: a map is of one law; make one of each"
+        )
     along = [_axis(x), _axis(y)]
     if x == y:
         raise ValueError(f"x = y = {x!r}: a map needs two quantities")
@@ -75,9 +80,8 @@ def stability_map(
     result = sweep(
         scenarios, law, threads=threads, executor=executor, out=out, resume=resume, progress=progress
     )  # fmt: skip
-    (name,) = name_laws(law)
     return StabilityMap(
-        base=scenario, law=name, x=x, y=y, xs=values[0], ys=values[1], result=result
+        base=scenario, law=names[0], x=x, y=y, xs=values[0], ys=values[1], result=result
     )
 
 

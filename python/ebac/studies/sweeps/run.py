@@ -97,6 +97,7 @@ def sweep(
     require(scenarios, Sequence, "ebac.sweep", "a list of scenarios")
     wanted = "limits=RunLimits(...), beyond which a run ends early (a device's own: ebac.simulate)"
     require(limits, (RunLimits, NoneType), "ebac.sweep", wanted)
+    require(executor, (Executor, NoneType), "ebac.sweep", "an executor of concurrent.futures")
     _check(scenarios, seed=seed, threads=threads, bundle=bundle, designed_for=designed_for)
     named = name_laws(laws)
     if progress is not None:

@@ -82,7 +82,9 @@ def _check(law: str, ranges: Mapping[str, Range]) -> None:
         if name not in fields:
             raise unknown_name(f"parameter of {law}", name, fields)
         field = fields[name]
+        unit = "" if field.unit == "1" else f" {field.unit}"
         if not field.low <= low < high <= field.high:
             raise ValueError(
-                f"{name} from {low:g} to {high:g} {field.unit}: must lie in [{field.low:g}, {field.high:g}]"
+                f"{name} from {low:g} to {high:g}{unit}: must lie in [{field.low:g}, {field.high:g}]{unit}, the lower "
+                "one first"
             )

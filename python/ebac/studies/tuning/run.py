@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from ebac._util.arguments import shown, unknown_name
+from ebac._util.arguments import require, shown, unknown_name, whole
 from ebac._util.progress import Progress
 from ebac.laws import LAWS, AnyLaw, Variant
 from ebac.operators import Operators
@@ -83,16 +83,21 @@ def tune(
         )
     if law not in LAWS:
         raise unknown_name("law", law, LAWS)
-    if evaluations < 2:
+    if whole("evaluations", evaluations) < 2:
         raise ValueError(f"evaluations = {evaluations}: must be at least 2")
     searched = Ranges(law, RANGES.get(law, {}) if ranges is None else ranges)
     hands = Operators.sample(HANDS, HANDS_SEED) if training is None else training
     others = Operators.grid() if test is None else test
-    start = base or Scenario()
+    for population in (hands, others):
+        require(population, Operators, "ebac.tune", "populations, each an Operators")
+    start = Scenario() if base is None else base
+    require(start, Scenario, "ebac.tune", "a Scenario as its base")
     groups: dict[int, list[Condition]] = {}
     for one in find(conditions):
         delay = one.believed(one.scenarios(hands[:1], start)[0])[1].delay
         groups.setdefault(delay, []).append(one)
+    if not groups:
+        raise ValueError("no condition given: tune needs at least one")
     done: list[Tuned] = []
     total = len(groups) * evaluations
     for i, (delay, chosen) in enumerate(groups.items()):

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ebac._core import LinearLoop, Recorded, Timing, Wall
-from ebac._util.arguments import require, several
+from ebac._util.arguments import require, several, whole
 from ebac._util.arrays import Values
 from ebac.laws import LAWS, AnyLaw
 from ebac.metrics import EXACT_COUNTS, ideal_rest
@@ -264,9 +264,9 @@ def _check(
             f"zwidth: least_stiffness = {least} N/m, most_stiffness = {most} N/m: must be "
             "0 < least_stiffness < most_stiffness <= 1e7 N/m"
         )
-    if rungs < 2:
+    if whole("zwidth: rungs", rungs) < 2:
         raise ValueError(f"zwidth: rungs = {rungs}: must be at least 2")
     if not epsilon >= 0:
         raise ValueError(f"zwidth: epsilon = {epsilon} J: must be at least 0")
-    if not 0 <= hands <= MOST_HANDS:
+    if not 0 <= whole("zwidth: hands", hands) <= MOST_HANDS:
         raise ValueError(f"zwidth: hands = {hands}: must lie in [0, {MOST_HANDS}]")

@@ -1,0 +1,100 @@
+"""Wrong calls of studies, sweeps, maps and searches are refused with the thing and its value, before anything runs."""
+
+from collections.abc import Callable
+from typing import Any
+
+import pytest
+
+import ebac
+
+E: Any = ebac
+HANDS = ebac.Operators.sample(1, 1)
+SHORT = ebac.Scenario(seconds=0.3)
+
+WRONG: dict[str, tuple[Callable[[], Any], type[Exception], str]] = {
+    "base": (
+        lambda: E.study(HANDS, ["tca"], base="x"),
+        TypeError,
+        "ebac.study takes a Scenario as its base, not 'x' (str)",
+    ),
+    "base of worst": (
+        lambda: E.worst("tca", base=3, evaluations=40),
+        TypeError,
+        "ebac.worst takes a Scenario as its base, not 3 (int)",
+    ),
+    "no family": (
+        lambda: E.worst("tca", family=[], evaluations=40),
+        ValueError,
+        "worst: family = []: is empty; give one at least",
+    ),
+    "evaluations": (
+        lambda: E.worst("tca", evaluations=40.5),
+        TypeError,
+        "worst: evaluations = 40.5: must be a whole number",
+    ),
+    "seed": (
+        lambda: E.worst("tca", seed=1.5, evaluations=40),
+        TypeError,
+        "worst: seed = 1.5: must be a whole number",
+    ),
+    "pull rate": (
+        lambda: E.worst("tca", pull_rate="a", evaluations=40),
+        TypeError,
+        "worst: pull_rate = 'a': must be a number",
+    ),
+    "executor": (
+        lambda: E.sweep([SHORT], ["tca"], executor=3),
+        TypeError,
+        "ebac.sweep takes an executor of concurrent.futures, not 3 (int)",
+    ),
+    "a map of two laws": (
+        lambda: E.stability_map(["tca", "ebac"], base=SHORT),
+        ValueError,
+        "stability_map: law = tca, ebac: a map is of one law; make one of each",
+    ),
+    "rungs": (
+        lambda: E.zwidth("direct", base=SHORT, rungs=2.5),
+        TypeError,
+        "zwidth: rungs = 2.5: must be a whole number",
+    ),
+    "hands of a Z-width": (
+        lambda: E.zwidth("direct", base=SHORT, hands=1.5),
+        TypeError,
+        "zwidth: hands = 1.5: must be a whole number",
+    ),
+    "nothing to tune under": (
+        lambda: E.tune("tca-damped", []),
+        ValueError,
+        "no condition given: tune needs at least one",
+    ),
+    "training": (
+        lambda: E.tune("tca-damped", training=3),
+        TypeError,
+        "ebac.tune takes populations, each an Operators, not 3 (int)",
+    ),
+    "range": (
+        lambda: E.tune("tca-damped", ranges={"kp": (1, 0)}),
+        ValueError,
+        "kp from 1 to 0: must lie in [0, 10], the lower one first",
+    ),
+}
+
+
+@pytest.mark.parametrize(("call", "kind", "message"), WRONG.values(), ids=WRONG)
+def test_a_wrong_call_is_refused_by_name(
+    call: Callable[[], Any], kind: type[Exception], message: str
+) -> None:
+    with pytest.raises(kind) as refused:
+        call()
+    assert refused.value.args[0] == message
+
+
+def test_a_run_that_is_none_of_a_study_is_refused() -> None:
+    """By NumPy: an `IndexError`, and for a word a `TypeError` about string formatting."""
+    study: Any = ebac.study(HANDS, ["direct", "tca"], base=SHORT)
+    assert study.trace(1).law == "tca"
+    for run in (-1, 2):
+        with pytest.raises(ValueError, match=rf"run = {run}: must lie in \[0, 1\]"):
+            study.trace(run)
+    with pytest.raises(TypeError, match="run = 'a': must be a whole number"):
+        study.trace("a")
