@@ -98,3 +98,13 @@ def test_a_run_that_is_none_of_a_study_is_refused() -> None:
             study.trace(run)
     with pytest.raises(TypeError, match="run = 'a': must be a whole number"):
         study.trace("a")
+
+
+def test_a_column_is_named_by_one_word() -> None:
+    """A list was an unhashable type."""
+    result: Any = ebac.sweep([SHORT], ["direct"])
+    with pytest.raises(KeyError, match=r"no column is called \['swing_m'\]"):
+        result[["swing_m"]]
+    trace: Any = ebac.simulate(SHORT, "direct")
+    with pytest.raises(TypeError, match=r"trace\[\['x'\]\]: must be the name of a column"):
+        trace[["x"]]

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ebac._core import Hand, Recorded, Step
-from ebac._util.arguments import require, shown, unknown_name, whole
+from ebac._util.arguments import named, require, shown, whole
 from ebac.identify import arm_shown, informativeness, limits, unrecorded_motor, validation
 from ebac.identify.arm_record import arm_record
 from ebac.identify.estimate import Estimate
@@ -149,9 +149,7 @@ class ArmResult:
 
     def __getitem__(self, name: str) -> Estimate:
         """Return one parameter."""
-        if name not in self.estimates:
-            raise unknown_name("parameter", name, self.estimates)
-        return self.estimates[name]
+        return named("parameter", name, self.estimates)
 
     @cached_property
     def tests(self) -> dict[str, ResidualTests]:

@@ -11,7 +11,7 @@ import numpy.typing as npt
 
 from ebac import _core
 from ebac._core import STILL_SWING, TAIL_SHARE, Free, Hand, Link, MinimumJerk, SlaveModel
-from ebac._util.arguments import number, require, shown, unknown_name, whole
+from ebac._util.arguments import named, number, require, shown, whole
 from ebac.laws import AnyLaw, design, law_name
 from ebac.laws.making import compiled
 from ebac.laws.tuned_laws import on_its_observer
@@ -66,9 +66,7 @@ class Run:
 
     def __getitem__(self, name: str) -> npt.NDArray[np.float64]:
         """Return a column; shape (ticks,)."""
-        if name not in self.columns:
-            raise unknown_name("column", name, self.columns)
-        return self.columns[name]
+        return named("column", name, self.columns)
 
     @staticmethod
     def fields() -> dict[str, tuple[str, str]]:

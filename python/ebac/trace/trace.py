@@ -120,11 +120,11 @@ class Trace:
         """Return a column by name, or the part between two times [s]."""
         if isinstance(key, slice):
             return self.between(key.start, key.stop, key.step)
+        if not isinstance(key, str):
+            raise TypeError(
+                f"trace[{key!r}]: must be the name of a column, or two times [s] as in trace[1.0:2.5]"
+            )
         if key not in self._data:
-            if not isinstance(key, str):
-                raise TypeError(
-                    f"trace[{key!r}]: must be the name of a column, or two times [s] as in trace[1.0:2.5]"
-                )
             raise unknown_name("column", key, self._data, MEANT.get(key.lower(), ()))
         return self._data[key]
 

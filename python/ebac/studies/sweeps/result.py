@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ebac._util.arguments import unknown_name
+from ebac._util.arguments import named
 from ebac._util.need import need
 from ebac._util.plural import plural
 
@@ -47,9 +47,7 @@ class SweepResult:
 
     def __getitem__(self, name: str) -> NDArray[Any]:
         """Return a column by name."""
-        if name not in self.columns:
-            raise unknown_name("column", name, self.columns)
-        return self.columns[name]
+        return named("column", name, self.columns)
 
     def __iter__(self) -> Iterator[str]:
         """Iterate over the names of the columns."""
