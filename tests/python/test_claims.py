@@ -1,6 +1,8 @@
 """The claims of `ebac.testing`: what each lets pass, what it catches and how it tells."""
 
 import math
+from collections.abc import Callable
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -123,6 +125,16 @@ def test_limits_say_what_they_miss() -> None:
         assert_within_limits(trace)
     with pytest.raises(AssertionError, match="x is nan at tick 1"):
         assert_within_limits(trace, travel=1)
+
+
+@pytest.mark.parametrize(
+    "claim",
+    [assert_passive, assert_within_limits, partial(assert_force_continuous, step=1.0)],
+)
+def test_nothing_is_claimed_of_no_rows(claim: Callable[[ebac.Trace], None]) -> None:
+    """NumPy spoke of reshape and argmax, and a force without rows was continuous."""
+    with pytest.raises(ValueError, match="the trace has 0 rows: needs at least 1"):
+        claim(ebac.simulate(ebac.Scenario(seconds=0.05), "direct").rows(0, 0))
 
 
 def test_a_fault_is_no_run_within_limits() -> None:

@@ -43,6 +43,7 @@ def assert_passive(
     __tracebackhide__ = True
     require(trace, Trace, "ebac.testing.assert_passive", "a Trace")
     _not_negative(reserve=reserve, tolerance=tolerance)
+    _not_empty(trace)
     energy, how = _energy(trace, damping)
     _finite("energy", energy, trace)
     least = int(energy.argmin())
@@ -124,6 +125,7 @@ def assert_force_continuous(
     __tracebackhide__ = True
     require(trace, Trace, "ebac.testing.assert_force_continuous", "a Trace")
     _not_negative(step=step)
+    _not_empty(trace)
     for i in range(trace.axes) if axis is None else [axis]:
         force = trace.axis(column, i)
         _finite(column, force, trace)
@@ -181,6 +183,7 @@ def assert_within_limits(
         raise ValueError(
             "no limit given, and the trace has no scenario: give force=, current=, ..."
         )
+    _not_empty(trace)
     if "fault" in trace and trace["fault"].any():
         row = int((trace["fault"] != 0).argmax())
         raise AssertionError(f"fault {int(trace['fault'][row])} at {_when(trace, row)}")
@@ -214,6 +217,11 @@ def _energy(trace: Trace, damping: float | None) -> tuple[NDArray[Any], str]:
         trace["work"].reshape(len(trace), -1) if "work" in trace else np.cumsum(force * dx, axis=0)
     )
     return (work + damped).sum(axis=1), "the energy observed at the port"
+
+
+def _not_empty(trace: Trace) -> None:
+    if not len(trace):
+        raise ValueError("the trace has 0 rows: needs at least 1")
 
 
 def _when(trace: Trace, row: int) -> str:
