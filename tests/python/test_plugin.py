@@ -46,6 +46,19 @@ def test_the_first_run_writes_and_fails_the_second_passes(project: pytest.Pytest
     project.runpytest_inprocess().assert_outcomes(passed=1)
 
 
+@pytest.mark.parametrize("text", ["<<<<<<< HEAD\n{", "{}", "[]", "3"])
+def test_golden_metrics_that_are_none_are_refused(project: pytest.Pytester, text: str) -> None:
+    """Empty ones passed without a comparison, and the marks of a merge were an error without the file's name."""
+    folder = wall(project, 300)
+    project.runpytest_inprocess()
+    (folder / "test_wall.json").write_text(text, encoding="utf-8")
+    result = project.runpytest_inprocess()
+    result.assert_outcomes(failed=1)
+    assert "test_wall.json: holds no golden metrics; if it is meant to differ: pytest" in told(
+        result
+    )
+
+
 @pytest.mark.slow
 def test_a_difference_is_named_drawn_and_updated_by_the_flag(project: pytest.Pytester) -> None:
     folder = wall(project, 300)
@@ -123,7 +136,13 @@ def test_a_folder_of_all_golden_traces_can_be_named(project: pytest.Pytester) ->
     ("how", "message"),
     [
         ("columns=['x', 'nonsense']", "no column is called 'nonsense'; there are: "),
+        ("columns='f_env'", "columns = 'f_env': must be a sequence, such as ['f_env']"),
         ("every=0", "every = 0: must be at least 1"),
+        ("every=2.5", "every = 2.5: must be a whole number"),
+        ("until=float('nan')", "stop = nan s: must be a time"),
+        ("tolerances={'x': 1e-3}", "tolerance for x takes a Tolerance, as in Tolerance(absolute="),
+        ("tolerances={'x': Tolerance(absolute='a')}", "Tolerance.absolute = 'a': must be a number"),
+        ("metric_tolerances={'swing_m': 'a'}", "tolerance of swing_m = 'a': must be a number"),
         ("metric_tolerances={'swing': 1}", "metric 'swing': there are rest_m, "),
         ("tolerances={'v': Tolerance(absolute=-1)}", "Tolerance.absolute = -1: must be finite"),
         ("columns=['x'], tolerances={'q': Tolerance()}", "tolerance for q: compared are only t, x"),

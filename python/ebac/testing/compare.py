@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from ebac._util import formatting
+from ebac._util.arguments import require
 from ebac._util.plural import plural
 from ebac.testing.tolerance import Tolerance, default_tolerance
 from ebac.trace import Trace
@@ -85,8 +86,18 @@ class Comparison:
         return f"<Comparison: {some}; {self.first or 'all agree'}>"
 
 
-def check_columns(tolerances: Iterable[str], compared: Sequence[str]) -> None:
-    """Raise ValueError for a tolerance of a column that is not compared."""
+def check_columns(tolerances: Mapping[str, Tolerance], compared: Sequence[str]) -> None:
+    """Raise ValueError for a tolerance of a column that is not compared, TypeError for what is no tolerance."""
+    require(
+        tolerances,
+        Mapping,
+        "tolerances",
+        "tolerances by column, as in {'x': Tolerance(absolute=1e-6)}",
+    )
+    for name, one in tolerances.items():
+        require(
+            one, Tolerance, f"tolerance for {name}", "a Tolerance, as in Tolerance(absolute=1e-6)"
+        )
     unknown = sorted(set(tolerances) - set(compared))
     if unknown:
         raise ValueError(
@@ -123,6 +134,8 @@ def compare(
     KeyError
         When a column does not exist in one of them.
     """
+    for one in (trace, golden):
+        require(one, Trace, "ebac.testing.compare", "two traces")
     if trace.axes != golden.axes or len(trace) != len(golden):
         raise ValueError(
             f"the trace has {_shape(trace)}, the golden one {_shape(golden)}: "

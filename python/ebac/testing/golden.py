@@ -10,10 +10,11 @@ from pathlib import Path
 from tempfile import NamedTemporaryFile
 from typing import TYPE_CHECKING, Any
 
+from ebac._util.arguments import require, whole
 from ebac._util.file_names import file_name
 from ebac.metrics import contact
 from ebac.testing.compare import Comparison, check_columns, compare
-from ebac.testing.metric import Metrics, check_names, differences, metrics_of
+from ebac.testing.metric import METRICS, Metrics, check_names, differences, metrics_of
 from ebac.testing.tolerance import Tolerance
 from ebac.trace import Trace
 from ebac.trace.files import write_npz
@@ -107,8 +108,12 @@ class TraceRegression:
             For columns, tolerances or numbers that cannot be.
         """
         __tracebackhide__ = True
-        if every < 1:
+        require(trace, Trace, "ebac_trace.check", "a Trace")
+        if whole("every", every) < 1:
             raise ValueError(f"every = {every}: must be at least 1")
+        if isinstance(columns, str):
+            raise TypeError(f"columns = {columns!r}: must be a sequence, such as [{columns!r}]")
+        trace.between(None, until)  # refuses what is no time
         check_names(metric_tolerances or {})
         chosen = [c for c in COLUMNS if c in trace] if columns is None else list(columns)
         check_columns(tolerances or {}, ["t", *chosen])
@@ -130,7 +135,7 @@ class TraceRegression:
                 f"there was no {what}: written to {missing[0]}{also}; look at it, commit it, run again"
             )
         golden = Trace.from_npz(golden_file)
-        known: Metrics = json.loads(metrics_file.read_text(encoding="utf-8")) if metrics else {}
+        known = _known(metrics_file) if metrics else {}
         return self._judge(found, golden, chosen, tolerances, until, came_to or {}, known,
                            metric_tolerances or {}, golden_file)  # fmt: skip
 
@@ -168,6 +173,23 @@ class TraceRegression:
         path = self.pictures / f"{name}.png"
         plot_overlay(found, golden, result.divergences).savefig(path)
         return path
+
+
+def _known(file: Path) -> Metrics:
+    """Return golden metrics.
+
+    Raises
+    ------
+    ValueError
+        When the file holds none, as one with the marks of a merge.
+    """
+    try:
+        known: Metrics = dict(json.loads(file.read_text(encoding="utf-8")))
+    except (TypeError, ValueError):
+        known = {}
+    if not known.keys() & METRICS.keys():
+        raise ValueError(f"{file}: holds no golden metrics; {_remedy()}")
+    return known
 
 
 def _part(trace: Trace, columns: Sequence[str], every: int) -> Trace:

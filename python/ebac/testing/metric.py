@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from ebac._util import formatting
+from ebac._util.arguments import number
 from ebac.metrics import Contact
 
 Metrics = dict[str, str | float | None]
@@ -45,7 +46,7 @@ def check_names(tolerances: Mapping[str, float]) -> None:
     for name, allowed in tolerances.items():
         if name not in METRICS:
             raise ValueError(f"metric {name!r}: there are {', '.join(METRICS)}")
-        if not allowed >= 0:
+        if not number(f"tolerance of {name}", allowed) >= 0:
             raise ValueError(f"tolerance of {name} = {allowed}: must not be negative")
 
 

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ebac._util.arguments import number
 from ebac._util.wrong_calls import plain_constructor
 
 
@@ -37,6 +38,7 @@ class Tolerance:
         """Check ranges."""
         for name in ("absolute", "relative"):
             value = getattr(self, name)
+            number(f"Tolerance.{name}", value)
             if not (isfinite(value) and value >= 0):
                 raise ValueError(f"Tolerance.{name} = {value}: must be finite and not negative")
 
