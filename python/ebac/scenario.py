@@ -136,10 +136,9 @@ class Scenario:
         object.__setattr__(self, "hand", as_hand(self.hand))
         object.__setattr__(self, "environment", as_environment(self.environment))
         for name in (*_NUMBERS, "observer"):
-            if item := getattr(
-                getattr(self, name), "item", None
-            ):  # of NumPy, which is not loaded for it
-                object.__setattr__(self, name, item())
+            value = getattr(self, name)  # of NumPy, which is not loaded for it
+            if getattr(value, "ndim", None) == 0:
+                object.__setattr__(self, name, value.item())
         parts: dict[str, tuple[type, ...]] = {
             "device": (Device,),
             "hand": (Hand,),

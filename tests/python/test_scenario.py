@@ -411,6 +411,14 @@ def test_a_value_is_frozen_hashable_and_equal_to_its_twins(value: Any) -> None:
             setattr(value, name, getattr(value, name))
 
 
+@pytest.mark.parametrize("seconds", [[1.0], [1.0, 2.0]])
+def test_an_array_is_no_number(seconds: list[float]) -> None:
+    """One value was taken, and of two NumPy said that it cannot convert them, without a name."""
+    given: Any = np.array(seconds)
+    with pytest.raises(TypeError, match=r"Scenario\.seconds = array\(.*\): must be a number in s"):
+        ebac.Scenario(seconds=given)
+
+
 @pytest.mark.parametrize("world", [ebac.Corner(), ebac.Disc(), ebac.Wall(angle=np.pi / 2)])
 def test_a_world_one_axis_would_never_feel_is_refused(world: Any) -> None:
     with pytest.raises(ValueError, match=r"needs 2 axes, the device has 1; give a device with"):
