@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from ebac import _core
-from ebac._util.arguments import require
+from ebac._util.arguments import number, require
 from ebac._util.fault_remedies import REMEDIES
 from ebac._util.foreign_worlds import foreign
 from ebac._util.kept_law import KeptLaw, law_error
@@ -164,8 +164,8 @@ def simulate(
             raise TypeError(
                 f"{name} belongs to the scenario, not to a law: ebac.simulate(scenario.replace({name}=...), law)"
             )
-    require(soft_start, (int, float), "ebac.simulate", "soft_start in seconds, a number")
-    require(ramp_down, (int, float), "ebac.simulate", "ramp_down in seconds, a number")
+    soft_start = number("simulate.soft_start", soft_start)
+    ramp_down = number("simulate.ramp_down", ramp_down)
     if bus is not None:
         require(bus, _core.TimedBus, "ebac.simulate", "a TimedBus")
         if through is None:

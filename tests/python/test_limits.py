@@ -2,6 +2,7 @@
 
 import math
 import re
+from typing import Any
 
 import numpy as np
 import pytest
@@ -213,6 +214,16 @@ def test_a_bad_soft_start_is_refused() -> None:
         ebac.simulate(scenario(), soft_start=-1)
     with pytest.raises(ValueError, match="soft_start"):
         ebac.simulate(scenario(), soft_start=math.nan)
+    with pytest.raises(TypeError, match=r"simulate\.soft_start = True: must be a number"):
+        ebac.simulate(scenario(), soft_start=True)
+
+
+def test_times_of_a_run_may_be_numbers_of_numpy() -> None:
+    """Its float32 and int64 were no number, and True was one second."""
+    times: Any = {"soft_start": np.float32(0.5), "ramp_down": np.int64(1)}
+    run = ebac.simulate(scenario(), "direct", **times)
+    other = ebac.simulate(scenario(), "direct", soft_start=0.5, ramp_down=1)
+    np.testing.assert_array_equal(run["ramp"], other["ramp"])
 
 
 def test_every_fault_and_every_limit_is_documented() -> None:
