@@ -418,6 +418,12 @@ def test_a_scenario_that_is_none_does_not_cost_the_rows(
     assert len(back) == len(trace)
 
 
+def test_a_part_is_named_by_times(tmp_path: Path) -> None:
+    start: Any = "a"
+    with pytest.raises(TypeError, match="start = 'a': must be a number"):
+        ebac.load(tmp_path / "run.mcap", start=start)
+
+
 def test_an_empty_line_below_the_headings_is_no_end(tmp_path: Path) -> None:
     (tmp_path / "log.csv").write_text("t [s],x [m]\n\n0.0,0.001\n0.001,0.002\n", encoding="utf-8")
     assert ebac.load(tmp_path / "log.csv")["x"].tolist() == [0.001, 0.002]

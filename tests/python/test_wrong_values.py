@@ -293,7 +293,7 @@ def test_a_value_of_another_type_is_refused_by_name(
         (
             lambda t: t.between(0, 10**400),
             ValueError,
-            "time = 1000000000...: is too large for a number",
+            "stop = 1000000000...: is too large for a number",
         ),
         (
             lambda t: E.drives.Traffic(name="PDO", size=9, rate=1e3),

@@ -93,7 +93,10 @@ def fit_arm(
     else:
         require(targets, (Target, Sequence), "fit_arm", "a Target, or one for each recording")
         targets = [targets] * len(recordings) if isinstance(targets, Target) else targets
-    _check(recordings, targets, starts, robust)
+    for name, names in (("free", free), ("own", own)):
+        if isinstance(names, str):
+            raise TypeError(f"{name} = {names!r}: must be a sequence, such as [{names!r}]")
+    _check(recordings, targets, starts, robust, seed)
     recordings = with_own_names(recordings)
     parameters = lay_out(
         [t.levels for t in targets],
@@ -210,6 +213,7 @@ def _check(
     targets: Sequence[Target],
     starts: int,
     robust: float | None,
+    seed: int,
 ) -> None:
     if not recordings:
         raise ValueError("no recordings: give at least one")
@@ -222,6 +226,8 @@ def _check(
         )
     if whole("starts", starts) < 1:
         raise ValueError(f"starts = {starts}: must be at least 1")
+    if whole("seed", seed) < 0:
+        raise ValueError(f"seed = {seed}: must be at least 0")
     if robust is not None and not number("robust", robust) > 0:
         raise ValueError(f"robust = {robust}: must be positive, in standard deviations")
 

@@ -14,6 +14,7 @@ from ebac._util.arguments import number, require, shown, unknown
 from ebac._util.plural import plural
 from ebac._util.wrong_calls import plain_constructor
 from ebac.identify.of_trace import signals_of, trace_facts
+from ebac.trace.time_slice import rows_between
 
 if TYPE_CHECKING:
     from ebac.identify.target import Path
@@ -236,8 +237,16 @@ class Recording:
         return self.rows(max(self.stretches, key=lambda part: part.stop - part.start))
 
     def between(self, start: float, stop: float) -> Self:
-        """Return the rows with start <= t < stop [s]."""
-        return self.rows(slice(*(int(np.searchsorted(self.t, t)) for t in (start, stop))))
+        """Return the rows with start <= t < stop [s].
+
+        Raises
+        ------
+        ValueError
+            For a part outside the log, one that ends before it begins or is too short, and for NaN.
+        TypeError
+            For what is no time.
+        """
+        return self.rows(slice(*rows_between(self.t, start, stop)))
 
     def flipped(self, *signals: str) -> Self:
         """Return the recording with the opposite sign of some forces: "force" of the hand (default), "motor"."""

@@ -21,8 +21,6 @@ def rows_between(
     times: list[Any] = [one for one in (start, stop) if one is not None]
     if not all(isinstance(time, (Real, np.number)) for time in times):
         raise TypeError(f"trace[{start!r}:{stop!r}]: must be times [s], as in trace[1.0:2.5]")
-    for time in times:
-        number("time", time)
     check_order(start, stop)
     first = 0 if start is None else int(np.searchsorted(t, start))
     last = len(t) if stop is None else int(np.searchsorted(t, stop))
@@ -42,8 +40,10 @@ def is_outside(start: float | None, stop: float | None, span: tuple[float, float
 
 
 def check_order(start: float | None, stop: float | None) -> None:
-    """Refuse a part that ends before it begins, and NaN [s]."""
+    """Refuse a part that ends before it begins, NaN [s], and what is no number."""
     for name, time in (("start", start), ("stop", stop)):
+        if time is not None:
+            number(name, time)
         if time is not None and isnan(time):
             raise ValueError(f"{name} = nan s: must be a time; without one the part is open")
     if start is not None and stop is not None and stop < start:
