@@ -254,3 +254,11 @@ def test_a_check_of_gains_refuses_what_it_does_not_use() -> None:
     done = CliRunner().invoke(app, ["identify", "check", "gains", "--seconds", "5"])
     assert done.exit_code == 2
     assert "--seconds 5: is not for gains" in done.output
+
+
+def test_a_recording_keeps_what_it_was_given() -> None:
+    """It looked at the caller's array: one that is used again for the next log changed those before."""
+    x = X.copy()
+    log = Recording(name="log", t=T, x=x)
+    x[:] = 0
+    np.testing.assert_array_equal(log.x, X)

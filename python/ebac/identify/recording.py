@@ -287,7 +287,7 @@ class Recording:
 def _numbers(name: str, values: Any) -> NDArray[Any]:
     """Return a column as an array of floats; flags stay flags."""
     try:
-        array = np.asarray(values)
+        array = np.array(values)  # a copy: what the caller writes into theirs later is not recorded
     except ValueError:  # rows of several lengths
         array = np.empty(0, dtype=object)
     if array.dtype.kind not in "fiub":
