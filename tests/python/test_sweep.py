@@ -253,6 +253,8 @@ def test_a_keyboard_interrupt_stops_soon_and_keeps_what_is_done() -> None:
     assert result["rest_m"][0] == sweep(scenarios(2), "tca")["rest_m"][0]
     assert f"{result['done'].sum()} of 32 runs" in str(stopped.value)
     assert isinstance(stopped.value, KeyboardInterrupt)
+    again = pickle.loads(pickle.dumps(stopped.value))
+    assert_same_bits(again.result, stopped.value.result)
 
 
 class Dying(Executor):

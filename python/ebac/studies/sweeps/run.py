@@ -37,6 +37,10 @@ class SweepInterrupted(KeyboardInterrupt):
         self.result = result
         super().__init__(f"interrupted after {int(result['done'].sum())} of {len(result)} runs")
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Return what a copy is made from: the result, not the text."""
+        return type(self), (self.result,)
+
 
 def sweep(
     scenarios: Sequence[Scenario],
