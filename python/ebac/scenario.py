@@ -28,6 +28,7 @@ from ebac._util.arguments import (
     refuse_unknown,
     require,
     require_file,
+    require_path,
     shown,
 )
 from ebac._util.copying import refuse_uncopyable
@@ -250,6 +251,7 @@ class Scenario:
 
     def save(self, path: str | Path) -> None:
         """Write the scenario to a TOML file. The file of a mesh below its folder is named from there."""
+        require_path(path, "Scenario.save")
         Path(path).write_text(self.to_toml(folder=Path(path).parent), encoding="utf-8")
 
     @classmethod

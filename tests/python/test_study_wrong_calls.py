@@ -108,3 +108,27 @@ def test_a_column_is_named_by_one_word() -> None:
     trace: Any = ebac.simulate(SHORT, "direct")
     with pytest.raises(TypeError, match=r"trace\[\['x'\]\]: must be the name of a column"):
         trace[["x"]]
+
+
+def test_a_path_that_is_none_is_refused_by_name() -> None:
+    trace: Any = ebac.simulate(SHORT, "direct")
+    result: Any = ebac.sweep([SHORT], "direct")
+    row = {"m_kg": 0.1, "b_Ns_per_m": 2, "k_N_per_m": 300, "target_m": 0.02}
+    hands: Any = E.Operators(**row)
+    writers = {
+        "Scenario.save": E.Scenario().save,
+        "Trace.to_csv": trace.to_csv,
+        "Trace.to_npz": trace.to_npz,
+        "SweepResult.to_csv": result.to_csv,
+        "SweepResult.to_parquet": result.to_parquet,
+        "Operators.to_csv": hands.to_csv,
+        "Operators.from_csv": hands.from_csv,
+        "Exploration.save": trace.explore().save,
+        "StabilityMap.to_npz": E.stability_map(
+            "direct", xs=[1, 2], ys=[1e3, 2e3], base=SHORT
+        ).to_npz,
+    }
+    for name, write in writers.items():
+        with pytest.raises(TypeError) as refused:
+            write(3)
+        assert refused.value.args[0] == f"{name} takes the path of a file, not 3 (int)"

@@ -8,7 +8,7 @@ from functools import cached_property
 from html import escape
 from pathlib import Path
 
-from ebac._util.arguments import require
+from ebac._util.arguments import require, require_path
 from ebac.explore.panels import Panel, chosen, usual
 from ebac.trace import Trace
 
@@ -49,6 +49,7 @@ class Exploration:
 
     def save(self, path: str | Path) -> None:
         """Write the page; any browser opens it, without network and without Python."""
+        require_path(path, "Exploration.save")
         Path(path).write_text(self.html, encoding="utf-8")
 
     def _repr_html_(self) -> str:

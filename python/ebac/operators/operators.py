@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ebac._core import Hand, Step, Wall
-from ebac._util.arguments import require, unknown, whole
+from ebac._util.arguments import require, require_file, require_path, unknown, whole
 from ebac._util.need import need
 from ebac._util.wrong_calls import plain_constructor
 from ebac.operators.columns import (
@@ -200,6 +200,7 @@ class Operators:
         ValueError
             As `from_columns`, with the file's name; rows are counted from 1 below the heading.
         """
+        require_file(path, "Operators.from_csv")
         try:
             return cls.from_columns(read_csv(path))
         except ValueError as error:
@@ -207,6 +208,7 @@ class Operators:
 
     def to_csv(self, path: str | Path) -> None:
         """Write CSV that `from_csv` reads; numbers keep every digit."""
+        require_path(path, "Operators.to_csv")
         columns = self.columns()
         with Path(path).open("w", encoding="utf-8", newline="") as file:
             writer = csv.writer(file, lineterminator="\n")

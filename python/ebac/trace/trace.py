@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ebac import _core
-from ebac._util.arguments import unknown_name, whole
+from ebac._util.arguments import require_path, unknown_name, whole
 from ebac._util.need import need
 from ebac._util.plural import plural
 from ebac.scenario import Scenario
@@ -293,6 +293,7 @@ class Trace:
         """Write CSV with the unit in each heading, `x [m]`; numbers keep every digit."""
         from ebac.trace.files import write_csv
 
+        require_path(path, "Trace.to_csv")
         write_csv(self, path, progress)
 
     def to_npz(self, path: str | Path) -> None:
@@ -303,6 +304,7 @@ class Trace:
         from ebac.scenario_text import warn_without_text
         from ebac.trace.files import write_npz
 
+        require_path(path, "Trace.to_npz")
         write_npz(self, path)
         warn_without_text(self.scenario, path, stacklevel=2)
 

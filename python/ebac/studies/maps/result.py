@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ebac._util.arguments import require_path
 from ebac._util.arrays import Values
 from ebac.scenario import Scenario
 from ebac.studies.maps.axes import AXES, MapAxis
@@ -110,6 +111,7 @@ class StabilityMap:
 
     def to_npz(self, path: str | Path) -> None:
         """Write axes and all numbers as arrays."""
+        require_path(path, "StabilityMap.to_npz")
         arrays: dict[str, Any] = {self.x: self.xs, self.y: self.ys}
         arrays |= {name: self[name] for name in self.result if name != "law"}
         np.savez_compressed(path, **arrays)

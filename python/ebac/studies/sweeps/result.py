@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ebac._util.arguments import named
+from ebac._util.arguments import named, require_path
 from ebac._util.need import need
 from ebac._util.plural import plural
 
@@ -91,6 +91,7 @@ class SweepResult:
 
     def to_csv(self, path: str | Path) -> None:
         """Write CSV; the unit is in each name, numbers keep every digit, NaN is an empty cell."""
+        require_path(path, "SweepResult.to_csv")
         with Path(path).open("w", encoding="utf-8", newline="") as file:
             writer = csv.writer(file, lineterminator="\n")
             writer.writerow(self.columns)
@@ -99,6 +100,7 @@ class SweepResult:
 
     def to_parquet(self, path: str | Path) -> None:
         """Write Parquet; needs `pip install 'ebac[sweep]'`."""
+        require_path(path, "SweepResult.to_parquet")
         try:
             import pyarrow
             import pyarrow.parquet
