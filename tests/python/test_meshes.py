@@ -227,6 +227,9 @@ def test_hills_are_where_the_heights_say() -> None:
     assert d[1] < 0 < d[2]
     with pytest.raises(ValueError, match=r"HeightField.heights: shape \(3,\)"):
         HeightField((1.0, 2.0, 3.0))  # type: ignore[arg-type]
+    for height in (2.0, np.nan):  # the message was that of a wrong shape
+        with pytest.raises(ValueError, match=rf"heights: {height:g} m is in it: must all lie in"):
+            HeightField(((0.0, height), (0.0, 0.0)))
 
 
 @pytest.mark.slow

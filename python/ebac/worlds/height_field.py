@@ -49,9 +49,14 @@ class HeightField(Triangles):
     def __post_init__(self) -> None:
         """Check the heights."""
         heights = array("HeightField.heights", self.heights, "numbers, shape (n, m)")
-        if heights.ndim != 2 or min(heights.shape) < 2 or not (np.abs(heights) <= 1).all():
+        if heights.ndim != 2 or min(heights.shape) < 2:
             raise ValueError(
-                f"HeightField.heights: shape {heights.shape}: must be (n, m), 2 at least each, within [-1, 1] m"
+                f"HeightField.heights: shape {heights.shape}: must be (n, m), 2 at least each"
+            )
+        wrong = heights[~(np.abs(heights) <= 1)]
+        if wrong.size:
+            raise ValueError(
+                f"HeightField.heights: {wrong[0]:g} m is in it: must all lie in [-1, 1] m"
             )
         spacing = number("HeightField.spacing", self.spacing)
         if not 1e-4 <= spacing <= 1:
