@@ -261,6 +261,13 @@ TEST(Slave, LiesAtRestInTheWallWhereItStarts) {
   }
 }
 
+TEST(Slave, AnInsertionThatIsNoNumberLeavesTheTubeAsLongAsItMayBe) {
+  const Lumen lumen(still());
+  Slave slave({}, lumen, 0.2);
+  for (int i = 0; i < 3; ++i) slave.carry({.insertion = std::nan("")}, i * kTick, kTick);
+  EXPECT_LE(slave.tube().nodes(), InsertionTube::kMost);
+}
+
 TEST(MotorAxis, StandsStillAtItsLoadAndIsNotPushedBack) {
   MotorAxis motor{.at = 1};
   for (double load : {2.0, 5.0}) motor.step(2, load, 0.03, 1, 2, kTick);

@@ -19,7 +19,8 @@ InsertionTube::InsertionTube(const Lumen& lumen) : lumen_(&lumen) {
 }
 
 InsertionTube::Base InsertionTube::reach(double s, double passed) EBAC_RT {
-  const double place = std::clamp(s / kStep, 0.0, static_cast<double>(kMost) - 3);
+  // Not by a clamp: of what is no number it makes no place.
+  const double place = s > 0 ? std::min(s / kStep, static_cast<double>(kMost) - 3) : 0.0;
   const auto before = static_cast<std::size_t>(place);
   share_ = place - static_cast<double>(before);
   while (count_ < before + 2) {
