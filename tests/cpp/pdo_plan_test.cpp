@@ -106,6 +106,11 @@ TEST(BusLoad, ASlowerBusIsToldOfAFasterOne) {
   EXPECT_NE(why.find("a bus of up to 1000 kbit/s"), string::npos) << why;
 }
 
+TEST(BusLoad, AsManyFramesAsItTakesAreTooMany) {
+  const PlannedFrame many{.what = "many", .id = 0x200, .size = 8, .count = 1'000'000};
+  EXPECT_NE(refusal({.frames = {20, many}}), "accepted");
+}
+
 TEST(BusLoad, RefusesWhatNoBusHas) {
   EXPECT_NE(refusal(load_of({1}, 1e-3, 2e6)).find("BusLoad.bit_rate = 2e+06 bit/s: must lie in"),
             string::npos);

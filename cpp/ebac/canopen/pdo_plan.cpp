@@ -60,13 +60,15 @@ std::vector<PlannedFrame> pdo_plan(std::span<const int> nodes) {
   return plan;
 }
 
-int BusLoad::bits() const {
-  int sum = 0;
+std::int64_t BusLoad::bits() const {
+  std::int64_t sum = 0;
   for (const PlannedFrame& frame : frames) sum += bits(frame);
   return sum;
 }
 
-double BusLoad::highest_rate() const { return kRefusedLoad * bit_rate / bits(); }
+double BusLoad::highest_rate() const {
+  return kRefusedLoad * bit_rate / static_cast<double>(bits());
+}
 
 std::string check_load(const BusLoad& load) {
   check_range("bit_rate", load.bit_rate, "bit/s", kSlowestBus, kFastestBus);

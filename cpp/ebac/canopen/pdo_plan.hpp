@@ -40,13 +40,19 @@ struct BusLoad {
   double bit_rate = 1e6;  // bit/s
   double period = 1e-3;   // s
 
-  int bits(const PlannedFrame& frame) const { return frame.count * worst_bits(frame.size); }
-  double seconds(const PlannedFrame& frame) const { return bits(frame) / bit_rate; }
+  std::int64_t bits(const PlannedFrame& frame) const {
+    return std::int64_t{frame.count} * worst_bits(frame.size);
+  }
+  double seconds(const PlannedFrame& frame) const {
+    return static_cast<double>(bits(frame)) / bit_rate;
+  }
   double share(const PlannedFrame& frame) const { return seconds(frame) / period; }
-  int bits() const;
-  double seconds() const { return bits() / bit_rate; }  // s, of every period, at the worst
-  double share() const { return seconds() / period; }   // of the bus
-  double highest_rate() const;                          // Hz, at which the plan would still fit
+  std::int64_t bits() const;
+  double seconds() const {  // s, of every period, at the worst
+    return static_cast<double>(bits()) / bit_rate;
+  }
+  double share() const { return seconds() / period; }  // of the bus
+  double highest_rate() const;                         // Hz, at which the plan would still fit
 };
 
 inline constexpr double kWarnedLoad = 0.7;
