@@ -442,5 +442,24 @@ TEST(SimulatedDriveEds, SaysThatTheDriveAnswersLss) {
   EXPECT_NE(eds(SimulatedDrive().objects()).find("LSS_Supported=1\n"), std::string::npos);
 }
 
+/// A motor whose peak torque is that many times its continuous one lets the drive give all it can, the way it is asked to.
+TEST(Torque, OfAMotorWithAnyPeakHasTheSignOfItsTarget) {
+  std::vector<SheetEntry> sheet;
+  for (const std::uint8_t sub : {13, 14}) {
+    sheet.push_back({.index = 0x2383, .sub = sub, .access = Access::kRw});
+  }
+  for (const std::uint16_t index : {0x6040, 0x6060, 0x6071}) {
+    sheet.push_back({.index = index, .access = Access::kRw});
+  }
+  SimulatedDrive drive({.sheet = sheet});
+  drive.elapse(0);
+  must(drive, 0x2383, 13, 4294967295);
+  must(drive, 0x2383, 14, 1);
+  must(drive, 0x6060, 0, kCyclicTorque);
+  for (const int word : {6, 7, 15}) must(drive, 0x6040, 0, word);
+  must(drive, 0x6071, 0, 300);
+  EXPECT_EQ(drive.torque(), 300);
+}
+
 }  // namespace
 }  // namespace ebac::can::simulated_drive_test

@@ -84,7 +84,7 @@ void SimulatedDrive::limit() EBAC_RT {
   auto most = static_cast<int>(std::min(objects_.get<0x6072>(), objects_.get<0x6073>()));
   if (objects_.described()) {  // another's limits start far above what this motor bears
     const auto peak = static_cast<double>(objects_[kAt<0x2383, 13>]) / 1e5;  // N m
-    most = std::min(most, static_cast<int>(std::lround(1000 * peak / continuous)));
+    most = static_cast<int>(std::lround(std::min<double>(most, 1000 * peak / continuous)));
   }
   stage_.configure({.ampere = rated / 1000,  // eq. (1)
                     .torque = most,
