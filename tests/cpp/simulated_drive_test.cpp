@@ -1,4 +1,5 @@
 // The node itself: NMT, heartbeats, EMCY, faults on request, and the torque it makes of a target.
+#include <limits>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -459,6 +460,14 @@ TEST(Torque, OfAMotorWithAnyPeakHasTheSignOfItsTarget) {
   for (const int word : {6, 7, 15}) must(drive, 0x6040, 0, word);
   must(drive, 0x6071, 0, 300);
   EXPECT_EQ(drive.torque(), 300);
+}
+
+TEST(Encoder, ACountFarFromTheLastOneIsAsFastAsADriveCanSay) {
+  SimulatedDrive drive;
+  drive.set_position(std::numeric_limits<std::int64_t>::max());
+  drive.elapse(kMillisecond);
+  drive.set_position(std::numeric_limits<std::int64_t>::min());
+  EXPECT_EQ(value(drive, 0x606C), std::numeric_limits<std::int32_t>::min());
 }
 
 }  // namespace

@@ -66,8 +66,8 @@ void SimulatedDrive::set_position(std::int64_t counts) EBAC_RT {
   const std::int64_t passed = now_ - counted_at_;  // ns
   if (passed > 0) {
     constexpr double kPerSecond = 1e9 * 10;  // 0.1 counts/s from counts/ns
-    const double speed =
-        static_cast<double>(counts - counts_) / static_cast<double>(passed) * kPerSecond;
+    const double moved = static_cast<double>(counts) - static_cast<double>(counts_);
+    const double speed = moved / static_cast<double>(passed) * kPerSecond;
     objects_[kAt<0x606C>] = std::llround(std::clamp(speed, -2147483648.0, 2147483647.0));
   }
   counts_ = counts;
