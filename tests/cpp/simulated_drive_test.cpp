@@ -439,6 +439,17 @@ TEST(SimulatedDriveEds, HasTheObjectsThatOnlyTheDataSheetHas) {
   EXPECT_NE(text.find("PDOMapping=0", torque), std::string::npos) << "the drive refuses to map it";
 }
 
+TEST(SimulatedDriveEds, HasADefaultOfTheDataSheetWhereTheTableHasTheNode) {
+  const std::vector<SheetEntry> sheet{
+      {.index = 0x1014, .access = Access::kRw, .initial = 0x81, .has_initial = true},
+      {.index = 0x1018, .sub = 4, .access = Access::kRo, .initial = 0x1234, .has_initial = true}};
+  const SimulatedDrive drive({.sheet = sheet});
+  EXPECT_EQ(value(drive, 0x1018, 4), 0x1234);
+  const std::string text = eds(drive.objects());
+  EXPECT_NE(text.find("DefaultValue=0x1234\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("DefaultValue=$NODEID+0x80\n"), std::string::npos) << text;
+}
+
 TEST(SimulatedDriveEds, SaysThatTheDriveAnswersLss) {
   EXPECT_NE(eds(SimulatedDrive().objects()).find("LSS_Supported=1\n"), std::string::npos);
 }

@@ -103,7 +103,8 @@ Rows rows_of(const ObjectDictionary& objects) {
 std::string default_of(const ObjectDictionary& objects, std::size_t slot) {
   const Entry& entry = kDriveTable.entry[slot];
   if (entry.type == Type::kString) return std::string(entry.text);
-  if (entry.plus_node) return "$NODEID+0x" + hex(entry.initial, 1);
+  const bool of_node = entry.plus_node && objects.initial(slot) == entry.initial + objects.node();
+  if (of_node) return "$NODEID+0x" + hex(entry.initial, 1);
   return number(is_signed(entry.type), objects.initial(slot));
 }
 
