@@ -44,6 +44,14 @@ TEST(TimedBus, ASlowBusIsRefusedBeforeTheRun) {
   EXPECT_THROW(loop_on({.answer_share = 0.5}), std::invalid_argument);   // at rest it takes more
 }
 
+TEST(TimedBus, AnyHeartbeatOfTheDrivesIsWatchedForThreeTimesAsLongAsItTakes) {
+  EXPECT_EQ(can::can_setup({}, can::TimedBus{.drive_heartbeat = 60}).heartbeat_timeout, 180);
+  EXPECT_NO_THROW(can::check_setup(can::can_setup({}, can::TimedBus{.drive_heartbeat = 60})));
+  // A drive has whole milliseconds.
+  EXPECT_EQ(can::can_setup({}, can::TimedBus{.drive_heartbeat = 1e-4}).heartbeat_timeout, 3e-3);
+  EXPECT_EQ(can::can_setup({}, can::TimedBus{.drive_heartbeat = 0}).heartbeat_timeout, 0);
+}
+
 TEST(TimedBus, OffTheBusMeansZeroForceAndDrivesAtRest) {
   for (const can::TimedBus& bus : {can::TimedBus{.broken = 1, .broken_from = 0.1},
                                    can::TimedBus{.broken = 2, .broken_from = 0.1},

@@ -49,7 +49,7 @@ struct CanopenSetup {
           "commanded torque",
           1, 32767},
         F{"heartbeat_timeout", &CanopenSetup::heartbeat_timeout, "s",
-          "longest time between two heartbeats of a node; 0 watches none", 0, 60},
+          "longest time between two heartbeats of a node; 0 watches none", 0, 3 * 60},
         F{"own_node", &CanopenSetup::own_node, "1",
           "node number under which the loop sends a heartbeat of its own; 0 sends none", 0,
           kLastNode},

@@ -41,7 +41,7 @@ inline CanopenSetup can_setup(const DeviceModel& device, const std::optional<Tim
   CanopenSetup setup{.axes = device.axes(), .motor = device.motor, .drive = device.drive};
   if (!bus) return setup;
   setup.silent_ticks = bus->silent_ticks;
-  setup.heartbeat_timeout = 3 * bus->drive_heartbeat;
+  setup.heartbeat_timeout = 3 * (static_cast<double>(watches_of(*bus).drive_heartbeat) / 1e3);
   if (bus->loop_silence > 0) {
     setup.own_node = kLoopNode;
     setup.heartbeat_period = std::clamp(bus->loop_silence / 10, 1e-3, 60.0);
