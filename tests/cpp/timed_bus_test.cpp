@@ -1,6 +1,8 @@
 // A simulated run on a bus that takes time: late answers, bus-off, and drives at rest.
 #include <gtest/gtest.h>
 
+#include <string>
+
 #include "ebac/control/direct.hpp"
 #include "ebac/sim/simulated_device.hpp"
 #include "ebac/simulated_drives/through_can.hpp"
@@ -50,6 +52,26 @@ TEST(TimedBus, AnyHeartbeatOfTheDrivesIsWatchedForThreeTimesAsLongAsItTakes) {
   // A drive has whole milliseconds.
   EXPECT_EQ(can::can_setup({}, can::TimedBus{.drive_heartbeat = 1e-4}).heartbeat_timeout, 3e-3);
   EXPECT_EQ(can::can_setup({}, can::TimedBus{.drive_heartbeat = 0}).heartbeat_timeout, 0);
+}
+
+TEST(TimedBus, ADriveThatWaitsForLessThanATickIsRefused) {
+  const auto refused = [](const can::TimedBus& bus, double dt) -> std::string {
+    try {
+      can::check_through_can(1, {.dt = dt}, bus);
+    } catch (const std::invalid_argument& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(refused({.torque_silence = 0.0016}, 0.0012), "");
+  const std::string torque = refused({.torque_silence = 0.0014}, 0.0012);  // 1 ms of a drive
+  EXPECT_NE(torque.find("TimedBus.torque_silence = 0.0014 s"), std::string::npos) << torque;
+  EXPECT_EQ(refused({.loop_silence = 0.02, .torque_silence = 0}, 0.01), "");
+  const std::string loop = refused({.loop_silence = 0.005, .torque_silence = 0}, 0.01);
+  EXPECT_NE(loop.find("TimedBus.loop_silence = 0.005 s"), std::string::npos) << loop;
+  // The loop's heartbeat comes with the second tick, after 1.4 ms.
+  EXPECT_NE(refused({.loop_silence = 0.001, .torque_silence = 0}, 0.0007), "");
+  EXPECT_EQ(refused({.loop_silence = 0.002, .torque_silence = 0}, 0.0007), "");
 }
 
 TEST(TimedBus, OffTheBusMeansZeroForceAndDrivesAtRest) {

@@ -28,6 +28,21 @@ double least_exchange(const BusLoad& load, const TimedBus& bus) {
   return bits / load.bit_rate + bus.response;
 }
 
+/// Refuses a watch of the drives that the loop lets run out between two of what it sends every `ticks`: `ms` is what they
+/// count, 0 for none.
+void check_silence(const char* name, double seconds, std::int64_t ms, const char* what, int ticks,
+                   const Timing& timing) {
+  const double every = ticks * timing.dt;
+  if (ms == 0 || static_cast<double>(ms) / 1e3 > every) return;
+  throw std::invalid_argument(
+      "TimedBus." + std::string(name) + " = " + shortest(seconds) +
+      " s: a drive lets go without a " + what + " for " + std::to_string(ms) +
+      " ms, and the next one comes after " +
+      (ticks == 1 ? "a tick of" : std::to_string(ticks) + " ticks,") + " " + six_digits(every) +
+      " s; must be longer than that in whole milliseconds, or 0, which watches none: shorten "
+      "timing.dt, or let the drives watch for longer");
+}
+
 }  // namespace
 
 std::string explain_times(int axes, const Timing& timing, const TimedBus& bus) {
@@ -60,13 +75,14 @@ void check_through_can(int axes, const Timing& timing, const std::optional<Timed
                                 ": must lie in [0, " + std::to_string(axes) +
                                 "], the nodes of this device; 0 breaks none");
   }
-  if (timed && bus.torque_silence > 0 && bus.torque_silence <= timing.dt) {
-    throw std::invalid_argument("TimedBus.torque_silence = " + shortest(bus.torque_silence) +
-                                " s: a drive lets go of a torque after that time, and the next "
-                                "one comes after a tick of " +
-                                six_digits(timing.dt) +
-                                " s; must be longer than timing.dt, or 0, which watches none: "
-                                "shorten timing.dt, or let the drives watch for longer");
+  if (timed) {
+    const Watches watches = watches_of(bus);
+    const double beat = can_setup({}, bus).heartbeat_period;  // with the first tick that is as late
+    const int beats = static_cast<int>(std::ceil(beat / timing.dt));
+    check_silence("torque_silence", bus.torque_silence, watches.torque_silence, "torque", 1,
+                  timing);
+    check_silence("loop_silence", bus.loop_silence, watches.loop_silence, "heartbeat", beats,
+                  timing);
   }
   const BusLoad load = load_of(axes, timing, bus);
   static_cast<void>(check_load(load));
