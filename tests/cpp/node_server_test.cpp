@@ -84,7 +84,9 @@ TEST(NodeServer, LeavesTheBusOnceAndForAll) {
     EXPECT_THROW(server.start(), std::logic_error);
   }
   {
-    const OnLoopback never_started(hub.open(), held_joystick());
+    OnLoopback never_started(hub.open(), held_joystick());
+    never_started.stop();
+    EXPECT_THROW(never_started.start(), std::logic_error);
   }
   {
     OnLoopback forgotten(hub.open(), held_joystick());

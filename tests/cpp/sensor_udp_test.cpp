@@ -258,6 +258,13 @@ TEST(EmulatorServer, StreamsToWhoAsks) {
   EXPECT_EQ(sensor.counts().requests, 1);
 }
 
+TEST(EmulatorServer, IsSilentForGoodOnceStopped) {
+  EmulatorServer sensor(kAnyPort, RdtEmulator<Endpoint>(),
+                        [](double) { return EmulatorServer::Force{}; });
+  sensor.stop();
+  EXPECT_THROW(sensor.start(), std::logic_error);
+}
+
 /// Everything that threads may do to it at once, for the thread sanitizer.
 TEST(EmulatorServer, IsUsedFromManyThreads) {
   auto cell = std::make_shared<Mailbox<EmulatorServer::Force>>();

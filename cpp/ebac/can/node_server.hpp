@@ -51,9 +51,9 @@ class NodeServer {
   NodeServer& operator=(NodeServer&&) = delete;
   ~NodeServer() { stop(); }
 
-  /// Starts the thread, once: throws std::logic_error the second time, and what rt::Thread throws.
+  /// Starts the thread, once: throws std::logic_error the second time or after a stop, and what rt::Thread throws.
   void start(rt::Mode mode = rt::Mode::kOff, const rt::Options& options = {}) {
-    if (thread_)
+    if (thread_ || over_.load(std::memory_order_relaxed))
       throw std::logic_error("these nodes have been on their bus already: make new ones");
     thread_.emplace(mode, options, [this] { work(); });
   }

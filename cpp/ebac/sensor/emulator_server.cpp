@@ -12,7 +12,7 @@ EmulatorServer::EmulatorServer(const Endpoint& at, const RdtEmulator<Endpoint>& 
     : socket_(at), emulator_(emulator), source_(std::move(source)), local_(socket_.local()) {}
 
 void EmulatorServer::start(rt::Mode mode, const rt::Options& options) {
-  if (thread_)
+  if (thread_ || over_.load(std::memory_order_relaxed))
     throw std::logic_error("this sensor has been on the network already: make a new one");
   thread_.emplace(mode, options, [this] { work(); });
 }

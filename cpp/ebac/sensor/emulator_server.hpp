@@ -32,7 +32,7 @@ class EmulatorServer {
   EmulatorServer(EmulatorServer&&) = delete;
   EmulatorServer& operator=(EmulatorServer&&) = delete;
 
-  /// Once in a life: throws std::logic_error the second time, and as rt::Thread.
+  /// Once in a life: throws std::logic_error the second time or after a stop, and as rt::Thread.
   void start(rt::Mode mode = rt::Mode::kOff, const rt::Options& options = {});
   /// Silent for good, within a few ms; nothing the second time.
   void stop() noexcept;
