@@ -83,6 +83,16 @@ TEST(RdtEmulator, SaturatesAtItsRangeWhereverZeroIs) {
   EXPECT_EQ(p.link.health(), SensorStatus::kSaturated);
 }
 
+TEST(RdtEmulator, TakesNoZeroFromALoadThatIsNoNumber) {
+  Pair p{RdtEmulator<int>()};
+  p.ask(RdtCommand::kStart);
+  p.emulator.feel({std::nan(""), 0, 0});
+  p.ask(RdtCommand::kBias);
+  p.emulator.feel({1, 0, 0});
+  p.sample();
+  EXPECT_DOUBLE_EQ(p.link.force()[0], 1);
+}
+
 TEST(RdtEmulator, WhatItDoesBadlyIsWhatTheLinkCounts) {
   Pair p{RdtEmulator<int>()};
   p.ask(RdtCommand::kStart);

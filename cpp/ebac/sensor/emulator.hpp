@@ -86,7 +86,9 @@ class RdtEmulator {
       case RdtCommand::kStartBuffered:
         return begin(request, from, options_.buffer);
       case RdtCommand::kBias:
-        zero_ = load_;
+        for (std::size_t i = 0; i < load_.size(); ++i) {
+          if (std::isfinite(load_[i])) zero_[i] = load_[i];
+        }
         return true;
     }
     return false;
