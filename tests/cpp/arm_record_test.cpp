@@ -307,12 +307,18 @@ TEST(ArmRecord, WhatDoesNotFitIsRefused) {
   refused([](auto& log) { log.doubt.pop_back(); });
   refused([](auto& log) { log.inputs[0].pop_back(); });
   refused([](auto& log) { log.inputs[0][3] = std::nan(""); });
+  refused([](auto& log) { log.early[3] = std::nan(""); });
   refused([](auto& log) { log.dt = 0; });
+  refused([](auto& log) { log.dt = std::numeric_limits<double>::infinity(); });
   refused([](auto& log) { log.lag = -1; });
   refused([](auto& log) { log.segments = {0, 1}; });
   refused([](auto& log) {
     log.switches = {0.2, 0.1};
     log.segments = {0, 1, 0};
+  });
+  refused([](auto& log) {
+    log.switches = {std::nan("")};
+    log.segments = {0, 1};
   });
 }
 

@@ -48,11 +48,14 @@ ArmRecord::ArmRecord(Log log) : log_(std::move(log)) {
     require_numbers(input, "an input");
   }
   refuse(log_.segments.size() != log_.switches.size() + 1, "needs one segment more than switches");
-  refuse(!(log_.dt > 0) || !(log_.lag >= 0), "dt must be positive and lag not negative");
+  refuse(!(log_.dt > 0 && std::isfinite(log_.dt)) || !(log_.lag >= 0 && std::isfinite(log_.lag)),
+         "dt must be positive, lag not negative, and both finite");
   require_numbers(log_.x, "x");
   require_numbers(log_.force, "force");
+  require_numbers(log_.early, "early");
   require_numbers(log_.known, "known");
   require_numbers(log_.doubt, "doubt");
+  require_numbers(log_.switches, "switches");
   refuse(!std::is_sorted(log_.switches.begin(), log_.switches.end()), "switches must rise");
   for (const double v : log_.variance) refuse(!(v >= 0), "variance must not be negative");
   for (const int level : log_.segments) {
