@@ -61,6 +61,12 @@ TEST(Wire, ALengthBeyondEightIsCut) {
   EXPECT_EQ(to_wire(Frame{.size = 255}).len, 8);
 }
 
+TEST(Wire, AFilterHasNoFlagsButItsOwn) {
+  const auto wire = to_wire(std::vector<CanFilter>{{.id = CAN_INV_FILTER | 0x123}});
+  EXPECT_EQ(wire[0].can_id, 0x123U);
+  EXPECT_EQ(wire[0].can_mask, CAN_EFF_FLAG | kStandardIds);
+}
+
 Frame controller_error(std::uint32_t what, std::uint8_t controller = 0) {
   Frame error{.id = what, .size = 8, .error = true};
   error.data[1] = controller;
@@ -99,6 +105,15 @@ TEST(SocketCan, AnEndOfNothingIsClosed) {
 TEST(SocketCan, NamesNoInterfaceCanHaveAreRefused) {
   for (const std::string& name : {std::string(), std::string("a-name-too-long-0")}) {
     EXPECT_NE(complaint(name).find("1 to 15 letters"), std::string::npos) << complaint(name);
+  }
+}
+
+TEST(SocketCan, MoreFiltersThanTheKernelTakesAreRefusedAsThat) {
+  try {
+    const SocketCan open("can0", {.filters = std::vector<CanFilter>(513)});
+    FAIL() << "opened";
+  } catch (const std::system_error& error) {
+    EXPECT_NE(std::string(error.what()).find("513 filters"), std::string::npos) << error.what();
   }
 }
 

@@ -143,7 +143,7 @@ std::vector<can_filter> to_wire(const std::vector<CanFilter>& filters) {
   std::vector<can_filter> wire;
   wire.reserve(filters.size());
   for (const CanFilter& filter : filters) {
-    wire.push_back({.can_id = filter.id | (filter.extended ? CAN_EFF_FLAG : 0U),
+    wire.push_back({.can_id = (filter.id & CAN_EFF_MASK) | (filter.extended ? CAN_EFF_FLAG : 0U),
                     .can_mask = (filter.mask & CAN_EFF_MASK) | CAN_EFF_FLAG});
   }
   return wire;
@@ -164,6 +164,13 @@ int bind_raw(int socket, const std::string& interface,
 
 int open_raw(const std::string& interface, const SocketCanOptions& options) {
   if (interface.empty() || interface.size() >= IFNAMSIZ) refuse(interface, EINVAL);
+  if (options.filters.size() > CAN_RAW_FILTER_MAX) {
+    throw std::system_error(EINVAL, std::generic_category(),
+                            "CAN interface '" + interface +
+                                "': " + std::to_string(options.filters.size()) +
+                                " filters: must be " + std::to_string(CAN_RAW_FILTER_MAX) +
+                                " at most; give fewer, with a mask that lets several through");
+  }
   Descriptor socket(::socket(PF_CAN, SOCK_RAW | SOCK_NONBLOCK | SOCK_CLOEXEC, CAN_RAW));
   if (socket.get() < 0) refuse(interface, errno);
   if (!set_options(socket.get(), options)) refuse(interface, errno);
