@@ -133,6 +133,8 @@ TEST(Setup, IsRefusedWithItsReason) {
   EXPECT_THROW(make({.node = {128}}), std::invalid_argument);
   EXPECT_THROW(make({.silent_ticks = 0}), std::invalid_argument);
   EXPECT_THROW(make({.motor = {.torque_constant = 0}}), std::invalid_argument);
+  EXPECT_THROW(make({.axes = 2, .own_node = 2}), std::invalid_argument);  // a drive's heartbeat
+  EXPECT_NO_THROW(make({.axes = 2, .own_node = 3}));
   EXPECT_NO_THROW(make({.axes = 1, .node = {127, 0, 0}}));
 }
 

@@ -1,5 +1,6 @@
 #include "ebac/canopen/canopen_setup.hpp"
 
+#include <algorithm>
 #include <stdexcept>
 #include <string>
 
@@ -26,6 +27,11 @@ void check_setup(const CanopenSetup& setup) {
   for (const int sign : setup.encoder_sign) check_sign("encoder_sign", sign);
   const std::vector<int> nodes(setup.node.begin(), setup.node.begin() + setup.axes);
   static_cast<void>(pdo_plan(nodes));
+  if (std::ranges::find(nodes, setup.own_node) != nodes.end()) {
+    throw std::invalid_argument("CanopenSetup.own_node = " + std::to_string(setup.own_node) +
+                                ": is the node of a drive, whose heartbeat others would take for "
+                                "the loop's; choose another");
+  }
 }
 
 }  // namespace ebac::can

@@ -61,7 +61,8 @@ struct CanopenSetup {
   }
 };
 
-/// Throws std::invalid_argument for a field, a node or a sign out of range, and for a node given twice.
+/// Throws std::invalid_argument for a field, a node or a sign out of range, and for a node given twice, to the loop itself
+/// among them.
 void check_setup(const CanopenSetup& setup);
 
 }  // namespace ebac::can
