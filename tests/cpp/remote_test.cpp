@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cmath>
 #include <memory>
+#include <stdexcept>
 #include <thread>
 
 #include "ebac/remote/link_end.hpp"
@@ -142,6 +143,14 @@ TEST(FarLink, LearnsOfAFaultAndOfAnEnd) {
   std::this_thread::sleep_for(std::chrono::milliseconds(5));
   ends.run(nullptr, 0.01);
   EXPECT_EQ(count(*slave, EventOf::kFarLeft), 1);
+}
+
+TEST(FarLink, RefusesATimeOutWithinTwoTicksInWhichNoLinkWouldRun) {
+  const auto made = [](double dt) {
+    LinkEnd(LinkEnd::Role::kSlave, {.timeout = 0.01}, dt, kHere, {});
+  };
+  EXPECT_NO_THROW(made(kDt));
+  EXPECT_THROW(made(0.01), std::invalid_argument);
 }
 
 TEST(MasterWorld, HasNoForceBeforeASlaveAnswersAndFadesAfterIt) {

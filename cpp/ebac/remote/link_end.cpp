@@ -5,6 +5,10 @@
 #include <chrono>
 #include <cmath>
 #include <random>
+#include <stdexcept>
+#include <string>
+
+#include "ebac/core/six_digits.hpp"
 
 namespace ebac::remote {
 
@@ -18,8 +22,13 @@ std::int64_t now() EBAC_RT {
   return std::chrono::nanoseconds(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-teleop::Coupling watched(const LinkParams& params) {
-  check(params, "LinkParams");
+teleop::Coupling watched(const LinkParams& params, double dt) {
+  check(params, "FarLink");
+  if (!(params.timeout > 2 * dt)) {
+    throw std::invalid_argument("FarLink.timeout = " + shortest(params.timeout) +
+                                " s: must be longer than two ticks of the loop, " +
+                                six_digits(2 * dt) + " s, or no link would ever run");
+  }
   return {.timeout = params.timeout, .fade = params.fade};
 }
 
@@ -30,7 +39,7 @@ LinkEnd::LinkEnd(Role role, const LinkParams& params, double dt, const sensor::E
     : slave_(role == Role::kSlave),
       params_(params),
       dt_(dt),
-      session_(role, watched(params), dt, slave_ ? 0 : std::random_device{}()),
+      session_(role, watched(params, dt), dt, slave_ ? 0 : std::random_device{}()),
       socket_(at),
       peer_(peer) {
   told_ = {.from_slave = slave_,

@@ -108,7 +108,8 @@ class LinkEnd {
  public:
   using Role = teleop::Role;
 
-  /// The slave has no `peer`. Throws std::system_error where the port cannot be had.
+  /// The slave has no `peer`. Throws std::system_error where the port cannot be had, std::invalid_argument for a time-out
+  /// within two ticks of `dt` [s].
   LinkEnd(Role role, const LinkParams& params, double dt, const sensor::Endpoint& at,
           const std::optional<sensor::Endpoint>& peer);
 
