@@ -81,7 +81,7 @@ ContactForce SlaveLink::contact(std::size_t group, const Axes& x, const Axes& v,
     lead(t);
     led_.fetch_add(1, std::memory_order_relaxed);
   } else {
-    beat_.fetch_add(1, std::memory_order_relaxed);
+    beat_.fetch_add(1, std::memory_order_release);  // who sees it sees where its axes are, too
     moves = is_led(t);
   }
   Axes force = Axes::Zero();
@@ -132,7 +132,7 @@ void SlaveLink::lead(double t) EBAC_RT {
 }
 
 void SlaveLink::start() EBAC_RT {
-  if (beat_.load(std::memory_order_relaxed) == 0) return;
+  if (beat_.load(std::memory_order_acquire) == 0) return;
   Four at{};
   for (std::size_t i = 0; i < at.size(); ++i) at[i] = gears_[i] * load(at_[i]);
   targets_.start(at);
