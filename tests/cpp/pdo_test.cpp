@@ -200,5 +200,13 @@ TEST(Pdo, SyncIdentifierMayMove) {
   EXPECT_EQ(say(drive, "090#").size(), 1);
 }
 
+/// The data sheet of a drive may lack what its PDO 1 carries from the start on.
+TEST(Tpdo, SendsZerosForAnObjectThatTheDriveDoesNotHave) {
+  const std::vector<SheetEntry> sheet{{.index = 0x6040, .access = Access::kRw}};
+  SimulatedDrive drive({.sheet = sheet});
+  heard(drive);
+  EXPECT_EQ(say(drive, "000#01 01"), Said{"181#00 00"});
+}
+
 }  // namespace
 }  // namespace ebac::can::pdo_test

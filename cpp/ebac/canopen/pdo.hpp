@@ -8,7 +8,7 @@ namespace ebac::can {
 
 enum class Direction : std::uint8_t { kReceive, kTransmit };
 
-inline constexpr std::uint16_t kDummy = 0xFFFF;  // bytes that are received and dropped
+inline constexpr std::uint16_t kDummy = 0xFFFF;  // bytes received and dropped, or sent as 0
 
 /// Mapping of one PDO, ready for use.
 struct PdoMap {
@@ -121,8 +121,8 @@ class Tpdo {
     frame = Frame{.id = settings_.id, .size = settings_.map.bytes};
     std::size_t at = 0;
     for (std::size_t i = 0; i < settings_.map.count; ++i) {
-      const std::span<std::uint8_t> rest(frame.data);
-      objects.read(settings_.map.slot[i], rest.subspan(at, settings_.map.size[i]));
+      const auto bytes = std::span(frame.data).subspan(at, settings_.map.size[i]);
+      if (settings_.map.slot[i] != kDummy) objects.read(settings_.map.slot[i], bytes);
       at += settings_.map.size[i];
     }
   }
