@@ -1,4 +1,5 @@
 // The node itself: NMT, heartbeats, EMCY, faults on request, and the torque it makes of a target.
+#include <array>
 #include <limits>
 #include <string>
 #include <tuple>
@@ -437,6 +438,26 @@ TEST(SimulatedDriveEds, HasTheObjectsThatOnlyTheDataSheetHas) {
   const std::size_t torque = text.find("[6071]");
   ASSERT_NE(torque, std::string::npos);
   EXPECT_NE(text.find("PDOMapping=0", torque), std::string::npos) << "the drive refuses to map it";
+}
+
+/// What a data sheet lets be written, and what the drive makes of it.
+TEST(SimulatedDriveEds, AWriteChangesNoOtherObject) {
+  std::vector<SheetEntry> sheet{{.index = 0x1008, .width = 0}, {.index = 0x6403, .width = 0}};
+  for (const std::uint8_t sub : {0, 1, 8}) {
+    sheet.push_back({.index = 0x1003, .sub = sub, .access = Access::kRw});
+    sheet.push_back({.index = 0x1016, .sub = sub, .access = Access::kRw});
+  }
+  sheet.push_back({.index = 0x1005, .access = Access::kRw});
+  SimulatedDrive drive({.sheet = sheet});
+  EXPECT_EQ(drive.write(0x1003, 8, 0), Abort::kNone);
+  EXPECT_EQ(value(drive, 0x1005), 0x80);
+  EXPECT_EQ(drive.write(0x1016, 0, 4), Abort::kReadOnly);  // as many as the drive has
+  const std::array<std::uint8_t, 3> name{'a', 'b', 'c'};
+  EXPECT_EQ(drive.download(0x1008, 0, name), Abort::kReadOnly);
+  std::array<std::uint8_t, 64> out{};
+  std::size_t size = 0;
+  EXPECT_EQ(drive.upload(0x6403, 0, out, size), Abort::kNone);
+  EXPECT_EQ(size, 0U);
 }
 
 TEST(SimulatedDriveEds, HasADefaultOfTheDataSheetWhereTheTableHasTheNode) {

@@ -47,7 +47,8 @@ class ObjectDictionary {
   }
 
   /// Makes the dictionary that of a data sheet: entries it lacks are not there, entries the table
-  /// lacks are numbers and texts without effect. An empty sheet leaves the table as it is.
+  /// lacks are numbers and texts without effect; what is constant stays so. An empty sheet leaves the
+  /// table as it is.
   void describe(std::span<const SheetEntry> sheet) {
     if (sheet.empty()) return;
     described_ = true;
@@ -59,7 +60,8 @@ class ObjectDictionary {
         continue;
       }
       hidden_[slot] = false;
-      access_[slot] = entry.access;
+      const bool constant = kDriveTable.entry[slot].access == Access::kConst;
+      access_[slot] = constant && entry.access > Access::kRo ? Access::kConst : entry.access;
       unmappable_[slot] = !entry.mappable;
     }
     std::ranges::sort(extra_, {}, [](const SheetEntry& e) { return key(e.index, e.sub); });

@@ -202,7 +202,7 @@ void SimulatedDrive::take_effect(std::size_t slot) EBAC_RT {
   if (is_pdo(entry.index)) return configure_pdo(entry.index);
   switch (entry.index) {
     case 0x1003:
-      for (std::size_t i = 1; i <= kHistory; ++i) objects_[slot + i] = 0;
+      for (std::size_t i = 1; entry.sub == 0 && i <= kHistory; ++i) objects_[slot + i] = 0;
       return;
     case 0x1006:
       return sync_watch_.set(kSyncPatience * objects_[slot] * kMicrosecond);
