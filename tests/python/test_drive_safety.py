@@ -272,6 +272,20 @@ def test_a_drive_that_would_hold_its_torque_is_refused(
         ebac.Device.open(known.replace(drives=network), simulate=True)
 
 
+def test_a_drive_that_would_fault_between_two_ticks_is_refused() -> None:
+    known = configuration()
+    with pytest.raises(
+        drives.ProfileError,
+        match=r"node 1: pdo\.rpdo1\.event = 0\.005 s: the loop sends every 0\.005 s",
+    ):
+        drives.check_pace(known.drives, 5e-3)
+    quick = drives.Profile(name="mine", values={"heartbeat.consumer": 1e-3}, pdos=())
+    network = drives.Network(name="mine", nodes=(drives.Node(id=1, profile=quick),))
+    with pytest.raises(drives.ProfileError, match=r"heartbeat\.consumer = 0\.001 s"):
+        drives.check_pace(network, 2.5e-4)
+    drives.check_pace(known.drives, known.timing.dt)
+
+
 def test_two_masters_are_refused() -> None:
     known = configuration()
     first, second = known.drives.nodes

@@ -42,7 +42,7 @@ from ebac.drives.profile import Profile, builtin
 from ebac.drives.setting import Setting
 from ebac.drives.sheets import check_sheet
 from ebac.drives.simulate import inject
-from ebac.drives.stall import check_stall, hold_time
+from ebac.drives.stall import check_pace, check_stall, hold_time
 from ebac.drives.state import TRANSITIONS, Command, Controlword, State, Statusword, path
 from ebac.drives.timing import BusTiming, bus_timing
 
@@ -86,6 +86,7 @@ __all__ = [
     "builtin",
     "bus_load",
     "bus_timing",
+    "check_pace",
     "check_sheet",
     "check_stall",
     "exact_bits",

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import inf
+from math import ceil, inf
 
 from ebac.drives.errors import ProfileError
 from ebac.drives.network import Network
@@ -10,6 +10,8 @@ from ebac.drives.profile import SIGNS_OF_LIFE, Profile
 
 #: The longest a drive may hold a torque that nobody commands any more [s].
 LONGEST = 0.5
+#: The shortest time between two heartbeats of a loop [s].
+LEAST_BEAT = 1e-3
 #: What `drive.connection_lost` makes of it (CiA 402-2, 0x6007).
 REACTION = {1: "fault, power off", 2: "power off", 3: "quick stop"}
 
@@ -82,3 +84,29 @@ def check_stall(network: Network) -> None:
             f"{network.name}: heartbeat.master is {text}: one loop sends one heartbeat, and the others would not be "
             "watched; give all drives the same"
         )
+
+
+def check_pace(network: Network, tick: float) -> None:
+    """Refuse drives that a loop on time lets fault, because they watch it for less than it takes to send again.
+
+    Parameters
+    ----------
+    network : Network
+        The drives of a bus.
+    tick : float
+        Sample time of the loop [s].
+
+    Raises
+    ------
+    ProfileError
+        For the first such watch, with the remedy.
+    """
+    for node in network.nodes:
+        for key, after in watches(node.profile).items():
+            least = LEAST_BEAT if key == "heartbeat.consumer" else tick
+            every = tick * ceil(max(least, tick) / tick * (1 - 1e-9))
+            if after <= every:
+                raise ProfileError(
+                    f"{network.name}: node {node.id}: {key} = {after:g} s: the loop sends every {every:g} s, in its "
+                    f"ticks of {tick:g} s, so the drive would fault at once; give several times that, or shorter ticks"
+                )

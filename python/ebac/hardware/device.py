@@ -17,7 +17,7 @@ from ebac._util.exception_notes import noted_on
 from ebac._util.foreign_worlds import foreign
 from ebac._util.parent import parent_gone
 from ebac._util.wrong_calls import plain_constructor
-from ebac.drives import Backups, check_stall
+from ebac.drives import Backups, check_pace, check_stall
 from ebac.hardware import drive_setup
 from ebac.hardware.axis_positions import (
     AxisPosition,
@@ -112,7 +112,9 @@ class OpenDevice:
         self._detached = detached
         self._nodes = drive_setup.nodes_of(configuration, simulate=simulate)
         network = configuration.drives
-        check_stall(replace(network, nodes=self._nodes))
+        watched = replace(network, nodes=self._nodes)
+        check_stall(watched)
+        check_pace(watched, configuration.timing.dt)
         real = replace(network, nodes=drive_setup.nodes_of(configuration, simulate=False))
         loaded = configuration.interface == "socketcan"  # a bus inside this process has no bit rate
         if loaded and (warning := real.check_load()) is not None:

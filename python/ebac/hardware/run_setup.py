@@ -7,6 +7,7 @@ from math import ceil
 from typing import TYPE_CHECKING, Any
 
 from ebac import _core
+from ebac.drives.stall import LEAST_BEAT
 from ebac.hardware.configuration_fields import check_seconds
 from ebac.realtime.mode import mode_named
 
@@ -83,7 +84,7 @@ def run_setup(
             "enable_ticks": ceil(_ENABLE / dt) + known.silent,
             "heartbeat_timeout": _BEATS * max(watched),
             "own_node": masters.pop() if beat > 0 else 0,  # one: `check_stall`
-            "heartbeat_period": max(1e-3, beat / 10) if beat > 0 else 0.01,
+            "heartbeat_period": max(LEAST_BEAT, beat / 10) if beat > 0 else 0.01,
             "guard_period": guard / 5,
         },
     )
