@@ -153,6 +153,8 @@ def simulate(
     LoopFault
         When a stage gave no finite number, a law, hand or world in Python raised an error, or the device left its
         limits; carries the trace.
+    MemoryError
+        When the rows do not fit into memory.
     KeyError, TypeError, ValueError
         For a law that does not exist or cannot be made; see `design`. Through CAN also for a delay of 0 samples,
         and when the process data would take over 90 % of the bus, or more time than the loop waits.
@@ -184,11 +186,14 @@ def simulate(
         setup = _core._with_loop(setup, soft_start=soft_start, ramp_down=ramp_down, limits=allowed)
     _check_observer(finished, scenario)
     errors: list[BaseException] = []
-    if is_core_law(finished):
-        rows = finished._simulate(setup, through is not None, bus)
-    else:
-        kept = KeptLaw(finished, errors)
-        rows = _core._simulate_python(setup, kept, through is not None, bus)
+    try:
+        if is_core_law(finished):
+            rows = finished._simulate(setup, through is not None, bus)
+        else:
+            kept = KeptLaw(finished, errors)
+            rows = _core._simulate_python(setup, kept, through is not None, bus)
+    except MemoryError:
+        raise MemoryError(_too_long(scenario)) from None
     name = law if isinstance(law, str) else law_name(finished)
     trace = Trace.from_rows(rows, scenario=scenario, law=name, law_repr=law_text(finished))
     fault = _core.Fault(int(trace["fault"][-1]))
@@ -202,6 +207,14 @@ def simulate(
     if mine is not None and (remark := mine.remark()):
         warnings.warn(remark, stacklevel=2)
     return trace
+
+
+def _too_long(scenario: Scenario) -> str:
+    seconds, dt = scenario.seconds, scenario.timing.dt
+    return (
+        f"{round(seconds / dt) + 1:,} rows, of {seconds:g} s in ticks of {dt:g} s, do not fit into memory: simulate "
+        "less time at once, or longer ticks"
+    )
 
 
 def _check_observer(law: CoreLaw | PythonLaw, scenario: Scenario) -> None:

@@ -2,6 +2,7 @@
 
 import gc
 import json
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Any
 
@@ -37,6 +38,14 @@ def trace(request: pytest.FixtureRequest, run: Any) -> ebac.Trace:
 
 
 # --- formats ---
+
+
+def test_threads_that_save_one_file_leave_it_whole(kind: str, run: Any, tmp_path: Path) -> None:
+    traced = run("ebac", seconds=0.05)
+    with ThreadPoolExecutor(4) as threads:
+        list(threads.map(traced.save, [tmp_path / f"run{kind}"] * 12))
+    assert len(ebac.load(tmp_path / f"run{kind}")) == len(traced)
+    assert [one.name for one in tmp_path.iterdir()] == [f"run{kind}"]
 
 
 def test_csv_comes_back(trace: ebac.Trace, tmp_path: Path) -> None:

@@ -1,5 +1,6 @@
 """Wrong values of public functions: a sentence that names function or parameter, never an error from deep inside."""
 
+import resource
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -364,3 +365,13 @@ def test_no_time_is_no_default_time() -> None:
 def test_one_condition_may_stand_without_a_list() -> None:
     rows = ebac.study(ebac.Operators.sample(1, 1), "direct", "d2K10").rows
     assert [row.condition for row in rows] == ["d2K10"]
+
+
+def test_a_run_that_does_not_fit_into_memory_is_refused_with_its_rows() -> None:
+    before = resource.getrlimit(resource.RLIMIT_AS)
+    resource.setrlimit(resource.RLIMIT_AS, (16 << 30, before[1]))  # bytes
+    try:
+        with pytest.raises(MemoryError, match=r"^100,000,001 rows, of 1000 s in ticks of 1e-05 s"):
+            ebac.simulate(ebac.Scenario(seconds=1e3, timing=ebac.Timing(dt=1e-5)), "direct")
+    finally:
+        resource.setrlimit(resource.RLIMIT_AS, before)

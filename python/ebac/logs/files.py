@@ -8,6 +8,7 @@ import warnings
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager, suppress
 from pathlib import Path
+from threading import get_ident
 from typing import TYPE_CHECKING, Any
 
 from ebac._util.arguments import require_file, require_path
@@ -91,7 +92,7 @@ def save(
 @contextmanager
 def draft(path: Path) -> Iterator[Path]:
     """Give the name of a file beside `path` that takes its place once it is whole, and is removed otherwise."""
-    name = path.with_name(f".{path.name}.{os.getpid()}.draft")
+    name = path.with_name(f".{path.name}.{os.getpid()}.{get_ident()}.draft")
     try:
         yield name
         name.replace(path)
