@@ -286,6 +286,12 @@ def test_a_drive_that_would_fault_between_two_ticks_is_refused() -> None:
     drives.check_pace(known.drives, known.timing.dt)
 
 
+@pytest.mark.parametrize("longest", [0.0, -1.0, float("nan")])
+def test_a_device_that_would_never_move_is_refused(longest: float) -> None:
+    with pytest.raises(ValueError, match="longest_step = "):
+        ebac.hardware.OpenDevice(configuration(), simulate=True, longest_step=longest)
+
+
 def test_two_masters_are_refused() -> None:
     known = configuration()
     first, second = known.drives.nodes
