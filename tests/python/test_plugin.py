@@ -125,6 +125,22 @@ def test_tests_in_parallel_write_and_compare_their_own(project: pytest.Pytester)
     project.runpytest_subprocess("-n", "2").assert_outcomes(passed=2)
 
 
+def test_two_tests_do_not_share_a_golden_trace(project: pytest.Pytester) -> None:
+    project.makepyfile(
+        test_mine="""
+        import ebac, pytest
+
+        @pytest.mark.parametrize("law", ["tca", "eba"], ids=["a b", "a,b"])
+        def test_wall(law, ebac_trace):
+            ebac_trace.check(ebac.simulate(ebac.Scenario(seconds=0.2), law))
+        """
+    )
+    found = project.runpytest_inprocess("--ebac-update")
+    found.assert_outcomes(errors=2)
+    assert "test_wall[a b] have the same golden trace" in told(found)
+    assert not (project.path / "test_mine").exists()
+
+
 def test_a_folder_of_all_golden_traces_can_be_named(project: pytest.Pytester) -> None:
     project.makeini("[pytest]\nebac_golden = tests/golden")
     wall(project, 300)

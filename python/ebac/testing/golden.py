@@ -49,14 +49,26 @@ class TraceRegression:
 
     @classmethod
     def of(cls, request: pytest.FixtureRequest) -> TraceRegression:
-        """Make it for a test."""
+        """Make it for a test.
+
+        Raises
+        ------
+        ValueError
+            When the golden trace of another test has the same file.
+        """
         config, node = request.config, request.node
         setting = config.getini("ebac_golden")
         folder = config.rootpath / setting if setting else request.path.with_suffix("")
-        klass = f"{node.cls.__name__}." if getattr(node, "cls", None) else ""
+        name = _name(node)
+        for other in request.session.items:
+            near = setting or other.path == node.path
+            if near and other is not node and _takes_traces(other) and _name(other) == name:
+                raise ValueError(
+                    f"{other.nodeid} and {node.nodeid} have the same golden trace, {folder / name}.npz: rename one"
+                )
         return cls(
             folder=folder,
-            name=file_name(klass + node.name, "trace"),
+            name=name,
             update=bool(config.getoption("--ebac-update")),
             pictures=request.getfixturevalue("tmp_path"),
         )
@@ -173,6 +185,15 @@ class TraceRegression:
         path = self.pictures / f"{name}.png"
         plot_overlay(found, golden, result.divergences).savefig(path)
         return path
+
+
+def _name(test: pytest.Item) -> str:
+    klass = getattr(test, "cls", None)
+    return file_name(f"{klass.__name__}.{test.name}" if klass else test.name, "trace")
+
+
+def _takes_traces(test: pytest.Item) -> bool:
+    return "ebac_trace" in getattr(test, "fixturenames", ())
 
 
 def _known(file: Path) -> Metrics:
