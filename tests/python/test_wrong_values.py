@@ -1,5 +1,6 @@
 """Wrong values of public functions: a sentence that names function or parameter, never an error from deep inside."""
 
+import re
 import resource
 from collections.abc import Callable
 from pathlib import Path
@@ -375,3 +376,27 @@ def test_a_run_that_does_not_fit_into_memory_is_refused_with_its_rows() -> None:
             ebac.simulate(ebac.Scenario(seconds=1e3, timing=ebac.Timing(dt=1e-5)), "direct")
     finally:
         resource.setrlimit(resource.RLIMIT_AS, before)
+
+
+@pytest.mark.parametrize("name", [name for name in ebac.plot.__all__ if name.startswith("plot_")])
+def test_a_figure_names_what_it_draws(name: str) -> None:
+    golden = {"plot_columns": (["x"],), "plot_overlay": (3,)}
+    with pytest.raises(TypeError, match=rf"{name}( takes |: runs = 3 ).*3"):
+        getattr(ebac.plot, name)(3, *golden.get(name, ()))
+
+
+@pytest.mark.parametrize(
+    ("call", "message"),
+    [
+        (lambda: E.ablation(changes={"guard": False}), "takes changes that are mappings, as"),
+        (lambda: E.engines([]), "engines: laws = []: is empty"),
+        (lambda: E.engines(rates=[]), "engines: rates = []: is empty"),
+        (
+            lambda: E.tune("tca-damped", ["d1K10"], ranges={"kp": 3}),
+            "kp = 3 (int): must be a sequence, such as [3]",
+        ),
+    ],
+)
+def test_arguments_of_studies_are_refused_by_name(call: Callable[[], Any], message: str) -> None:
+    with pytest.raises((TypeError, ValueError), match=re.escape(message)):
+        call()

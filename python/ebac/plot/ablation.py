@@ -14,6 +14,7 @@ from matplotlib.patches import Patch, Rectangle
 from ebac._util import formatting
 from ebac._util.plural import plural
 from ebac.plot.style import BETTER, SAME, WORSE, Picture, figure_legend, new_figure
+from ebac.plot.takes import takes_its_class
 
 if TYPE_CHECKING:
     from ebac.studies import Ablation, AblationRow
@@ -23,6 +24,7 @@ if TYPE_CHECKING:
 ABREAST = 5
 
 
+@takes_its_class
 def plot_ablation(found: Ablation) -> Picture:
     """Draw an ablation: the law as it is, the law without each piece, other laws.
 

@@ -9,6 +9,7 @@ import numpy as np
 from ebac.metrics import ideal_rest
 from ebac.plot.marks import mark_cut
 from ebac.plot.style import IDEAL, Picture, dress, figure_legend, line, new_figure
+from ebac.plot.takes import takes_its_class
 
 if TYPE_CHECKING:
     from ebac.studies.engines import Engines
@@ -23,6 +24,7 @@ STYLES = {
 SHOWN, ABOUT = 1.5, 20.0
 
 
+@takes_its_class
 def plot_engines(found: Engines) -> Picture:
     """Draw the position under each law, a column for each rate of the engine.
 

@@ -9,6 +9,7 @@ from matplotlib.axes import Axes
 from ebac._util.arrays import Values
 from ebac.plot.marks import FAULT_COLOUR, fault_name
 from ebac.plot.style import Picture, dress, legend, new_figure
+from ebac.plot.takes import takes_its_class
 
 if TYPE_CHECKING:
     from ebac.faults import FaultCase
@@ -17,6 +18,7 @@ _STATES = {0: "idle", 1: "arm", 2: "run", 3: "stop", 4: "fault"}
 _AXES = ("#0072b2", "#d55e00")
 
 
+@takes_its_class
 def plot_fault(case: FaultCase) -> Picture:
     """Draw position, current asked and applied, and state of a case, with the injected fault marked.
 

@@ -11,6 +11,7 @@ from matplotlib.ticker import MaxNLocator
 from numpy.typing import NDArray
 
 from ebac.plot.style import Picture, colour, dress, legend, line, new_figure
+from ebac.plot.takes import takes_its_class
 
 if TYPE_CHECKING:
     from ebac.gastroscope import Gastroscopy, GastroscopyStudy
@@ -24,6 +25,7 @@ FEW = 5
 WALL, WAY, TARGET, LIMIT = "#c98c8c", "#0072b2", "#d55e00", "#cc0000"
 
 
+@takes_its_class
 def plot_gastroscopy(run: Gastroscopy) -> Picture:
     """Draw the way from outside, the view of the camera, and the forces over time.
 
@@ -150,6 +152,7 @@ def _forces(ax: Axes, run: Gastroscopy) -> None:
     legend(ax)
 
 
+@takes_its_class
 def plot_gastroscopy_study(found: GastroscopyStudy) -> Picture:
     """Draw the largest tissue force of every physician without and with feedback, and the effect.
 

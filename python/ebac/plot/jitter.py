@@ -9,6 +9,7 @@ from matplotlib.axes import Axes
 
 from ebac._util.arrays import Values
 from ebac.plot.style import Picture, dress, legend, new_figure
+from ebac.plot.takes import takes_its_class
 
 if TYPE_CHECKING:
     from ebac.realtime import Cyclictest, Jitter
@@ -18,6 +19,7 @@ _OWN, _OTHER = "#009e73", "#0072b2"
 _BINS = 25
 
 
+@takes_its_class
 def plot_jitter(found: Jitter, other: Cyclictest | None = None) -> Picture:
     """Draw how many wake-ups were how late, both axes logarithmic.
 

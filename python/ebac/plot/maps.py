@@ -14,6 +14,7 @@ from ebac._util.arrays import Values
 from ebac.metrics import STILL_SWING
 from ebac.plot.marks import for_law
 from ebac.plot.style import Picture, new_figure, plain_decades
+from ebac.plot.takes import takes_its_class
 
 if TYPE_CHECKING:
     from ebac.studies.maps import MapAxis, StabilityMap
@@ -26,6 +27,7 @@ SHORT = 25
 LINE: dict[str, Any] = {"colors": "black", "linewidths": 1.2, "linestyles": "solid"}
 
 
+@takes_its_class
 def plot_map(found: StabilityMap) -> Picture:
     """Draw a map: verdict, swing, energy drawn and, where there is an ideal rest, deviation, one panel each.
 

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from ebac._util import formatting
 from ebac.plot.style import Picture, colour, dress, legend, line, new_figure
+from ebac.plot.takes import takes_its_class
 from ebac.trace import Trace
 
 if TYPE_CHECKING:
@@ -22,6 +23,7 @@ MOST_CHANNELS = 6
 MARGIN = 0.02
 
 
+@takes_its_class
 def plot_overlay(found: Trace, golden: Trace, divergences: Sequence[Divergence] = ()) -> Picture:
     """Draw a trace over a golden one.
 

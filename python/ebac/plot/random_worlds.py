@@ -8,6 +8,7 @@ import numpy as np
 
 from ebac._util.arrays import Values
 from ebac.plot.style import Picture, colours, dress, figure_legend, new_figure
+from ebac.plot.takes import takes_its_class
 from ebac.studies.random_worlds_result import HELD_BACK
 from ebac.studies.world_kinds import KINDS
 
@@ -19,6 +20,7 @@ LEAST, TOP = 1e-3, 10.0
 SHORTEST, LONGEST = 1e-3, 4.0
 
 
+@takes_its_class
 def plot_random_worlds(found: RandomWorlds) -> Picture:
     """Draw a column for each kind of world, a line for each law: shares of hands, all devices and delays together.
 

@@ -11,6 +11,7 @@ from matplotlib.patches import Patch
 from ebac.plot.legends import figure_legend
 from ebac.plot.maps import VERDICT_COLOURS
 from ebac.plot.style import Picture, new_figure
+from ebac.plot.takes import takes_its_class
 
 if TYPE_CHECKING:
     from ebac.studies.shapes import ShapeRow, Shapes
@@ -19,6 +20,7 @@ if TYPE_CHECKING:
 VERDICTS = ("exact, quiet and passive", "gives out energy", "not exact", "not quiet", "swings")
 
 
+@takes_its_class
 def plot_shapes(found: Shapes) -> Picture:
     """Draw a panel for each stiffness: a line for each world and device, a column for each law.
 

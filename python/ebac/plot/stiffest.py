@@ -12,6 +12,7 @@ from matplotlib.lines import Line2D
 from ebac._util import descriptions
 from ebac._util.plural import plural
 from ebac.plot.style import Picture, colours, dress, figure_legend, new_figure, plain_decades
+from ebac.plot.takes import takes_its_class
 
 if TYPE_CHECKING:
     from ebac.studies.stiffest_result import Stiffest
@@ -28,6 +29,7 @@ LINES: dict[str, tuple[str, dict[str, Any]]] = {
 NEEDED: dict[str, Any] = {"color": "0.6", "lw": 0.8}
 
 
+@takes_its_class
 def plot_stiffest(found: Stiffest) -> Picture:
     """Draw a panel for each law, the best first: the share of the hands that meet each criterion over the stiffness.
 

@@ -19,6 +19,7 @@ from ebac._util.plural import plural
 from ebac.metrics import STILL_SWING
 from ebac.plot.study_overview import LONG, overview, wrapped
 from ebac.plot.style import Picture, colours, figure_legend, new_figure
+from ebac.plot.takes import takes_its_class
 
 if TYPE_CHECKING:
     from ebac.studies import Study
@@ -35,6 +36,7 @@ RING: dict[str, Any] = {"marker": "o", "ms": 4, "mew": 0.9, "mfc": "white"}
 CROSS: dict[str, Any] = {"marker": "x", "ms": 5, "mew": 1.1}
 
 
+@takes_its_class
 def plot_study(study: Study) -> Iterator[tuple[str, Picture]]:
     """Draw a study: an overview, then scatters of deviation against swing, some conditions a page.
 

@@ -6,12 +6,14 @@ import numpy as np
 
 from ebac.metrics import STILL_SWING
 from ebac.plot.style import Picture, colours, dress, legend, new_figure
+from ebac.plot.takes import takes_its_class
 from ebac.studies.sweeps import SweepResult
 
 #: Swings below this [m] are drawn at it: the axis is logarithmic.
 LEAST_SWING = 1e-7
 
 
+@takes_its_class
 def plot_sweep(result: SweepResult) -> Picture:
     """Draw each run of a sweep by its deviation and its swing, a colour per law.
 

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from ebac._util.arguments import unknown_name
 from ebac.plot.style import Picture, dress, figure_legend, new_figure
+from ebac.plot.takes import takes_its_class
 
 if TYPE_CHECKING:
     from ebac.teleop.study import Study, StudyRow
@@ -30,6 +31,7 @@ TICKS = 6
 LEAST = 0.005
 
 
+@takes_its_class
 def plot_teleop(found: Study, network: str = "rough") -> Picture:
     """Draw a column for each contact: shaking, energy of both ports and transparency over the delay.
 

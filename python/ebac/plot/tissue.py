@@ -9,6 +9,7 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from ebac.plot.style import Picture, colour, dress, figure_legend, line, new_figure
+from ebac.plot.takes import takes_its_class
 
 if TYPE_CHECKING:
     from ebac.studies.tissue import Tissue
@@ -20,6 +21,7 @@ IN, OUT, EXACT = "#0072b2", "#d55e00", "0.7"
 BUZZ, MEAN = 20, 0.01
 
 
+@takes_its_class
 def plot_tissue(found: Tissue) -> Picture:
     """Draw a column for each material: its curves, and below them a row for the force under each law.
 

@@ -10,6 +10,7 @@ from matplotlib.axes import Axes
 
 from ebac._util.arrays import Values
 from ebac.plot.style import Picture, dress, legend, new_figure
+from ebac.plot.takes import takes_its_class
 from ebac.tracking.circle import CircleFit
 from ebac.tracking.line import LineFit
 from ebac.tracking.table import TABLE_I
@@ -23,6 +24,7 @@ FIT, PATH, PAPER = "#d55e00", "#0072b2", "#000000"
 SHOWN = 0.15
 
 
+@takes_its_class
 def plot_tracking(tracking: Tracking) -> Picture:
     """Draw a path with its fit as in Fig. 8 and 9, its deviation exaggerated, and its deviations as a histogram.
 
@@ -141,6 +143,7 @@ def _histogram(ax: Axes, fit: LineFit | CircleFit) -> None:
     legend(ax, columns=3)
 
 
+@takes_its_class
 def plot_budget(budget: Budget) -> Picture:
     """Draw the standard deviation of each source beside the paper's, for the line and the circle.
 

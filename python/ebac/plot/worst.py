@@ -10,6 +10,7 @@ from matplotlib.axes import Axes
 from ebac._util import descriptions, formatting
 from ebac.plot.marks import for_law, mark_cut
 from ebac.plot.style import QUANTITIES, Picture, colour, dress, legend, line, new_figure
+from ebac.plot.takes import takes_its_class
 
 if TYPE_CHECKING:
     from ebac.studies import Worst, WorstHand
@@ -19,6 +20,7 @@ if TYPE_CHECKING:
 NEAR = 0.15
 
 
+@takes_its_class
 def plot_worst(found: Worst, hand: WorstHand | None = None) -> Picture:
     """Draw a hand of a search, by default the worst: the whole run, and the instant at which most is drawn.
 

@@ -16,6 +16,7 @@ from ebac._util import descriptions
 from ebac._util.arrays import Values
 from ebac.plot.shared_lines import side_by_side
 from ebac.plot.style import Picture, colours, dress, figure_legend, new_figure
+from ebac.plot.takes import takes_its_class
 
 if TYPE_CHECKING:
     from ebac.studies.zwidth import ZWidth
@@ -45,6 +46,7 @@ CEILINGS: dict[str, dict[str, dict[str, Any]]] = {
 }
 
 
+@takes_its_class
 def plot_zwidth(found: ZWidth, criteria: Sequence[str] = ("usable", "energy")) -> Picture:
     """Draw a Z-width: borders by criterion and delay, with the ceilings, and the areas below.
 

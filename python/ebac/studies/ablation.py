@@ -10,6 +10,7 @@ from textwrap import shorten
 from typing import Any
 
 from ebac._core import Device, Timing
+from ebac._util.arguments import require
 from ebac._util.plural import plural
 from ebac.laws import AnyLaw, changed, design, law_name
 from ebac.laws.protocols import is_core_law
@@ -203,6 +204,8 @@ def pieces(law: AnyLaw, changes: Sequence[Mapping[str, Any]] = ()) -> list[Piece
         {name: not value} for name, value in parameters.items() if isinstance(value, bool)
     ]
     found += [{name: 0.0} for name in GAINS if parameters.get(name, 0) != 0]
+    for one in changes:
+        require(one, Mapping, "ebac.ablation", "changes that are mappings, as [{'guard': False}]")
     every = [*found, *(dict(one) for one in changes if dict(one) not in found)]
     if not every:
         raise ValueError(

@@ -8,7 +8,7 @@ from dataclasses import asdict, dataclass
 from typing import Any
 
 from ebac._core import BridgeParams, EngineTiming, Wall
-from ebac._util.arguments import require
+from ebac._util.arguments import require, several
 from ebac.laws import AnyLaw, law_name
 from ebac.metrics import contact
 from ebac.scenario import Environment, Scenario
@@ -127,22 +127,23 @@ def engines(
     if base is None:
         base = Scenario(environment=preset("plane", position=0.01), seconds=4.0)
     require(base, Scenario, "ebac.studies.engines", "a Scenario as its base")
+    chosen = several("engines: laws", laws)
     world = _bodies(base.environment)
     scenario = base.replace(environment=world)
     worlds: list[World | Bridge] = [world]
-    for rate in rates:
+    for rate in several("engines: rates", rates):
         how: Any = {"rate": rate, "jitter": jitter, "compute": compute, "seed": scenario.seed}
         worlds += [
             behind_engine(world, held=held, rendering=rendering, **how) for held in (True, False)
         ]
     rows, traces = [], []
-    for law in laws:
+    for law in chosen:
         for one in worlds:
             row, trace = _run(scenario.replace(environment=one), law)
             rows.append(row)
             traces.append(trace)
             if progress is not None:
-                progress(len(rows), len(laws) * len(worlds))
+                progress(len(rows), len(chosen) * len(worlds))
     return Engines(base=scenario, rows=tuple(rows), traces=tuple(traces))
 
 

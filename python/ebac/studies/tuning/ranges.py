@@ -8,7 +8,7 @@ from typing import TypeAlias
 
 import numpy as np
 
-from ebac._util.arguments import unknown_name
+from ebac._util.arguments import number, several, unknown_name
 from ebac._util.arrays import Values
 from ebac.laws import LAWS
 
@@ -78,9 +78,13 @@ def _check(law: str, ranges: Mapping[str, Range]) -> None:
         names = ", ".join(RANGES)
         raise ValueError(f"law {law!r}: nothing to tune; give ranges, or one of {names}")
     fields = {f.name: f for f in LAWS[law].fields()}
-    for name, (low, high) in ranges.items():
+    for name, span in ranges.items():
         if name not in fields:
             raise unknown_name(f"parameter of {law}", name, fields)
+        ends = [number(name, value) for value in several(name, span)]
+        if len(ends) != 2:
+            raise ValueError(f"{name} = {ends}: must be its lowest and highest value, as (0.1, 10)")
+        low, high = ends
         field = fields[name]
         unit = "" if field.unit == "1" else f" {field.unit}"
         if not field.low <= low < high <= field.high:
