@@ -8,7 +8,8 @@ from ebac._core import Device, Hand, Timing
 def passive_ceiling(device: Device, timing: Timing, wall_damping: float = 0.0) -> float:
     """Return the largest wall stiffness that is passive without a law, K = 2 (b - |B|) / ((1 + 2 d) T) [N/m].
 
-    Colgate and Schenkel (1994) for d = 0, where it is necessary too; with d samples of delay it is sufficient.
+    Colgate and Schenkel (1994) for d = 0, where it is necessary too; with d samples of delay it is sufficient. Without
+    a lag of the current loop: with one the device alone is unstable from about `delay_ceiling` on, which is less.
 
     Parameters
     ----------
