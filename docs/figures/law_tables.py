@@ -43,7 +43,7 @@ PURPOSE = {
     "recovery": "rests where the wall is",
     "injection": "takes out what recovery puts in",
     "fast_stiffness": "noise does not ring with a heavy hand on a stiff wall",
-    "guard": "no hand draws more than the reserve",
+    "guard": "limits the energy that a hand draws",
     "kp": "less friction felt",
 }
 

@@ -637,7 +637,7 @@ class DeviceFacts:
     damping : float
         lower bound of the physical viscous damping at the handle, after compensation [N s/m], -500 to 500.
     mass : float
-        mass felt at the handle; at most 50 % wrong [kg], 0.001 to 100.
+        mass felt at the handle; right to a few per cent [kg], 0.001 to 100.
     count : float
         one encoder count at the handle [m], 0 to 0.01.
     current_lag : float
@@ -709,7 +709,7 @@ class DeviceFacts:
     @property
     def mass(self) -> float:
         """
-        mass felt at the handle; at most 50 % wrong [kg], 0.001 to 100
+        mass felt at the handle; right to a few per cent [kg], 0.001 to 100
         """
     @property
     def peak_force(self) -> float:
@@ -5128,7 +5128,7 @@ class LagCompensator:
     virtual_damping : float
         virtual damping in contact, B_v; 0 for none [N s/m], 0 to 10000.
     recovery_time : float
-        T_r: the lag is T_r (K/c_h - 1) for a wall of K [s], 0.001 to 10.
+        T_r: the lag is T_r (K/c_h - 1) for a wall of K, and T_r/4 at least [s], 0.001 to 10.
     count : float
         one encoder count at the handle [m], 0 to 0.01.
     peak_force : float
@@ -5256,7 +5256,7 @@ class LagCompensator:
     @property
     def recovery_time(self) -> float:
         """
-        T_r: the lag is T_r (K/c_h - 1) for a wall of K [s], 0.001 to 10
+        T_r: the lag is T_r (K/c_h - 1) for a wall of K, and T_r/4 at least [s], 0.001 to 10
         """
     @property
     def state(self) -> LagCompensator.State:
@@ -6578,7 +6578,7 @@ class EBAC:
     damping : float
         lower bound of the device's physical damping, b [N s/m], 0.01 to 500.
     mass : float
-        device mass at the handle, M_h; at most 50 % wrong [kg], 0.001 to 100.
+        device mass at the handle, M_h; right to a few per cent [kg], 0.001 to 100.
     current_lag : float
         time constant of the drive's current loop [s], 0 to 0.1.
     count : float
@@ -6865,7 +6865,7 @@ class EBAC:
     @property
     def mass(self) -> float:
         """
-        device mass at the handle, M_h; at most 50 % wrong [kg], 0.001 to 100
+        device mass at the handle, M_h; right to a few per cent [kg], 0.001 to 100
         """
     @property
     def observed_reserve(self) -> float:

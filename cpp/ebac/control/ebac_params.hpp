@@ -48,8 +48,8 @@ struct EbacParams {
     return std::array{
         F{"damping", &EbacParams::damping, "N s/m",
           "lower bound of the device's physical damping, b", 0.01, 500},
-        F{"mass", &EbacParams::mass, "kg", "device mass at the handle, M_h; at most 50 % wrong",
-          1e-3, 100},
+        F{"mass", &EbacParams::mass, "kg",
+          "device mass at the handle, M_h; right to a few per cent", 1e-3, 100},
         F{"current_lag", &EbacParams::current_lag, "s", "time constant of the drive's current loop",
           0, 0.1},
         F{"count", &EbacParams::count, "m", "one encoder count at the handle", 0, 0.01},

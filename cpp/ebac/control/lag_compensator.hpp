@@ -58,7 +58,7 @@ class LagCompensator {
           F{"virtual_damping", &Params::virtual_damping, "N s/m",
             "virtual damping in contact, B_v; 0 for none", 0, 1e4},
           F{"recovery_time", &Params::recovery_time, "s",
-            "T_r: the lag is T_r (K/c_h - 1) for a wall of K", 1e-3, 10},
+            "T_r: the lag is T_r (K/c_h - 1) for a wall of K, and T_r/4 at least", 1e-3, 10},
           F{"count", &Params::count, "m", "one encoder count at the handle", 0, 0.01},
           F{"peak_force", &Params::peak_force, "N", "largest command", 1e-3, 1e4},
       };
