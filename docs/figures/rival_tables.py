@@ -363,6 +363,6 @@ def _ceilings(found: Row) -> str:
         passive.append(f"{of[0]['passive_N_per_m'] / 1e3:.2g}")
     return (
         f"Ceilings: the linear loop without a law (spectral radius below 1) has {', '.join(linear)} at d = 0, 1, 2; "
-        f"a wall without damping is passive without a law up to {', '.join(passive)} kN/m where the current loop has no "
-        "lag."
+        f"a wall without damping is passive without a law up to {', '.join(passive)} kN/m where the current loop "
+        "has no lag."
     )
