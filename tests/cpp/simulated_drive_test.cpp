@@ -1,5 +1,7 @@
 // The node itself: NMT, heartbeats, EMCY, faults on request, and the torque it makes of a target.
 #include <array>
+#include <cstdint>
+#include <initializer_list>
 #include <limits>
 #include <string>
 #include <tuple>
@@ -443,7 +445,7 @@ TEST(SimulatedDriveEds, HasTheObjectsThatOnlyTheDataSheetHas) {
 /// What a data sheet lets be written, and what the drive makes of it.
 TEST(SimulatedDriveEds, AWriteChangesNoOtherObject) {
   std::vector<SheetEntry> sheet{{.index = 0x1008, .width = 0}, {.index = 0x6403, .width = 0}};
-  for (const std::uint8_t sub : {0, 1, 8}) {
+  for (const std::uint8_t sub : std::initializer_list<std::uint8_t>{0, 1, 8}) {
     sheet.push_back({.index = 0x1003, .sub = sub, .access = Access::kRw});
     sheet.push_back({.index = 0x1016, .sub = sub, .access = Access::kRw});
   }
@@ -478,10 +480,10 @@ TEST(SimulatedDriveEds, SaysThatTheDriveAnswersLss) {
 /// A motor whose peak torque is that many times its continuous one lets the drive give all it can, the way it is asked to.
 TEST(Torque, OfAMotorWithAnyPeakHasTheSignOfItsTarget) {
   std::vector<SheetEntry> sheet;
-  for (const std::uint8_t sub : {13, 14}) {
+  for (const std::uint8_t sub : std::initializer_list<std::uint8_t>{13, 14}) {
     sheet.push_back({.index = 0x2383, .sub = sub, .access = Access::kRw});
   }
-  for (const std::uint16_t index : {0x6040, 0x6060, 0x6071}) {
+  for (const std::uint16_t index : std::initializer_list<std::uint16_t>{0x6040, 0x6060, 0x6071}) {
     sheet.push_back({.index = index, .access = Access::kRw});
   }
   SimulatedDrive drive({.sheet = sheet});
