@@ -108,5 +108,6 @@ def check_pace(network: Network, tick: float) -> None:
             if after <= every:
                 raise ProfileError(
                     f"{network.name}: node {node.id}: {key} = {after:g} s: the loop sends every {every:g} s, in its "
-                    f"ticks of {tick:g} s, so the drive would fault at once; give several times that, or shorter ticks"
+                    f"ticks of {tick:g} s, so the drive would fault at once; must be longer: "
+                    "give several times that, or shorter ticks"
                 )

@@ -11,6 +11,7 @@ from math import inf
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from ebac._util.arguments import number
 from ebac.drives.bus import TIMEOUT
 from ebac.drives.errors import BusError
 from ebac.hardware.drives_subprocess import in_a_process
@@ -122,7 +123,11 @@ def simulated(
     ------
     BusError
         When the other process cannot put them there.
+    ValueError
+        For a `longest_step` in which the device would never move.
     """
+    if longest_step is not None and not number("longest_step", longest_step) > 0:
+        raise ValueError(f"longest_step = {longest_step} s: must be above 0, or None for no limit")
     scenario = configuration.scenario(seconds=10)
     from ebac._core import DriveWiring, LoopbackJoystick, SharedForce, SharedHandTarget
     from ebac.hardware.wiring import wiring_of

@@ -13,7 +13,6 @@ from pathlib import Path
 from types import TracebackType
 from typing import TYPE_CHECKING, Any, Self
 
-from ebac._util.arguments import number
 from ebac._util.exception_notes import noted_on
 from ebac._util.foreign_worlds import foreign
 from ebac._util.parent import parent_gone
@@ -106,10 +105,6 @@ class OpenDevice:
     ) -> None:
         if not beyond_rating:
             check_rating(configuration)
-        if longest_step is not None and not number("longest_step", longest_step) > 0:
-            raise ValueError(
-                f"longest_step = {longest_step} s: must be above 0, or None for no limit"
-            )
         self.configuration = configuration
         self.simulated = simulate
         self._confirmed = False

@@ -62,7 +62,8 @@ class TraceRegression:
         name = _name(node)
         for other in request.session.items:
             near = setting or other.path == node.path
-            if near and other is not node and _takes_traces(other) and _name(other) == name:
+            twin = other.nodeid != node.nodeid and _name(other) == name
+            if near and twin and _takes_traces(other):
                 raise ValueError(
                     f"{other.nodeid} and {node.nodeid} have the same golden trace, {folder / name}.npz: rename one"
                 )
