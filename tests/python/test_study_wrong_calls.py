@@ -123,7 +123,6 @@ def test_a_path_that_is_none_is_refused_by_name() -> None:
         "SweepResult.to_parquet": result.to_parquet,
         "Operators.to_csv": hands.to_csv,
         "Operators.from_csv": hands.from_csv,
-        "Exploration.save": trace.explore().save,
         "StabilityMap.to_npz": E.stability_map(
             "direct", xs=[1, 2], ys=[1e3, 2e3], base=SHORT
         ).to_npz,
@@ -132,3 +131,10 @@ def test_a_path_that_is_none_is_refused_by_name() -> None:
         with pytest.raises(TypeError) as refused:
             write(3)
         assert refused.value.args[0] == f"{name} takes the path of a file, not 3 (int)"
+
+
+def test_the_path_of_an_exploration_that_is_none_is_refused_by_name() -> None:
+    pytest.importorskip("bokeh")
+    page: Any = ebac.simulate(SHORT, "direct").explore()
+    with pytest.raises(TypeError, match="Exploration.save takes the path of a file, not 3"):
+        page.save(3)
