@@ -136,5 +136,5 @@ def test_a_path_that_is_none_is_refused_by_name() -> None:
 def test_the_path_of_an_exploration_that_is_none_is_refused_by_name() -> None:
     pytest.importorskip("bokeh")
     page: Any = ebac.simulate(SHORT, "direct").explore()
-    with pytest.raises(TypeError, match="Exploration.save takes the path of a file, not 3"):
+    with pytest.raises(TypeError, match=r"Exploration\.save takes the path of a file, not 3"):
         page.save(3)
