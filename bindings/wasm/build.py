@@ -23,8 +23,8 @@ CPP = HERE.parents[1] / "cpp"
 CORE = (
     *("core/check", "core/fields", "core/matrix_exponential"),
     *("control/laws", "control/turned_ports", "control/virtual_coupling"),
-    *("loop/axis_observer", "loop/plausibility", "loop/safety_limiter", "loop/signal_chain"),
-    "loop/state_observer",
+    *("loop/axis_observer", "loop/gain_schedule", "loop/plausibility", "loop/safety_limiter"),
+    *("loop/signal_chain", "loop/state_observer"),
     *(
         "model/device",
         "model/environment",

@@ -8,11 +8,14 @@
 #include "ebac/core/realtime.hpp"
 #include "ebac/loop/force_history.hpp"
 #include "ebac/loop/force_trend.hpp"
+#include "ebac/loop/gain_schedule.hpp"
+#include "ebac/loop/held_device.hpp"
 #include "ebac/loop/motor_echo.hpp"
 #include "ebac/loop/motor_force.hpp"
 #include "ebac/loop/motor_strength.hpp"
 #include "ebac/loop/observer_gains.hpp"
 #include "ebac/loop/observer_params.hpp"
+#include "ebac/loop/proven_velocity.hpp"
 #include "ebac/loop/sensor_noise.hpp"
 
 namespace ebac {
@@ -34,22 +37,12 @@ namespace ebac {
 /// is behind G by its age as well: its mean age joins force_lag, and a reading older or newer than
 /// that is moved to it along the line through the last two records.
 ///
-/// The encoder corrects x, u and D. A reading says little about where in its count the device is, so
-/// an innovation counts half up to one count and whole beyond, and x is kept within 1.5 counts of the
-/// reading. Where the sensor shows less noise than declared, the half shrinks with it, down to a tenth,
-/// at rest: the reading changes with the swing of a hand within a count, and would keep it going. In
-/// motion it does not: an error of the model by a millinewton would take x through the whole count, and
-/// a hand that swings slowly would draw 0.4 mW. The steady Kalman gain of force noise against a reading
-/// uniform within a count has the bandwidth w = sqrt(sqrt(12) force_noise / (M count)). 0.4 of it is
-/// used in motion, 0.3 at rest, where an edge of a count would be felt as a click; D is slower than x
-/// and u, by far so at rest. All of w is used where the force turns out to be noisier than declared, and
-/// where the readings go on contradicting the model: friction that holds the device is a force that D
-/// must learn, or x would rest at the end of its counts, with a velocity that is none. Where the reading stands
-/// for 10 ms while x is at that end, D learns it in 2 ms.
+/// The encoder corrects x, u and D with the gains of `GainSchedule`. x is kept within 1.5 counts of the reading, and v
+/// within what two readings prove of it (`ProvenVelocity`). Where the reading stands while x is at the end of its
+/// counts, the device is held, and D learns by what in 2 ms (`HeldDevice`).
 ///
 /// The prediction takes the force of the hand to change as it did in the last 12 ms, and at rest without
-/// the noise it shows: a lag in that force of 1 N would be 4 m/s^2. v is kept within what two readings
-/// prove of it.
+/// the noise it shows: a lag in that force of 1 N would be 4 m/s^2.
 ///
 /// With `learn_scale`, f counts as its learned `MotorStrength` times the command.
 class AxisObserver {
@@ -63,7 +56,9 @@ class AxisObserver {
       : params_(params),
         mass_(params.mass* mass_share),
         per_mass_(1 / mass_),
-        leaning_(kLeans* std::max(0.0, 1 - params.friction / kSticks)),
+        gains_(params),
+        held_(params.friction),
+        proven_(params.count),
         motor_(params.current_lag),
         strength_(params.count),
         noise_(params.force_noise),
@@ -74,16 +69,16 @@ class AxisObserver {
   void start(double x, double force) EBAC_RT {
     noise_ = SensorNoise(params_.force_noise);
     const double held = noise_.exceeded_by(std::abs(force)) ? force : 0;
-    x_ = reading_ = x;
-    pace_ = unread_ = stands_ = leans_ = astray_ = 0;
+    x_ = x;
+    proven_.start(x);
+    held_.restart();
+    gains_.restart();
     u_ = v_ = 0;
     disturbance_ = weight_;
     motor_ = MotorForce(params_.current_lag, held + weight_);
     echo_.restart(motor_.shown());
     measured_ = before_last_ = held;
     trend_ = ForceTrend(held);
-    contradicted_ = 0;
-    moving_ = 1;
     old_ = false;
     in_flight_ = CommandsInFlight(params_.delay);
     records_ = {};
@@ -129,8 +124,8 @@ class AxisObserver {
     const double before = x_;
     x_ += (u_ + (0.5 * dt + motor_.sensor_lag()) * a) * dt;
     u_ += a * dt;
-    unread_ += dt;
-    const double reading = encoder ? encoder->value + v_ * encoder->age : reading_;
+    proven_.pass(dt);
+    const double reading = encoder ? encoder->value + v_ * encoder->age : proven_.reading();
     if (encoder) {
       correct(reading);
       keep_place(reading, pull);
@@ -152,7 +147,7 @@ class AxisObserver {
     double x = x_, v = v_;
     LaggedForce motor = motor_.acts();
     const double calm = trend_.level();
-    const double hand = calm + moving_ * (measured_ - calm) + disturbance_;
+    const double hand = calm + gains_.moving() * (measured_ - calm) + disturbance_;
     double ahead = params_.force_lag;
     const auto advance = [&](double force, double time) EBAC_RT {
       const double grown = trend_.trend() * (ahead + 0.5 * time);
@@ -176,28 +171,11 @@ class AxisObserver {
   /// Share of the last 0.1 s in which the measured force bent more than its declared noise does.
   double rough() const EBAC_RT { return noise_.rough(); }
 
-  /// Share of the last 50 ms in which the reading was more than 1.5 counts from where the model put it.
-  double contradicted() const EBAC_RT { return contradicted_; }
+  /// Share of the last 50 ms in which the readings contradicted the model.
+  double contradicted() const EBAC_RT { return gains_.contradicted(); }
 
  private:
-  // Found by random search on 72 hands in 25 cells of delay, stiffness and error of the facts: force
-  // ripple, hands at rest and energy given out.
   static constexpr double kCell = 1.5;  // counts from the reading that x may have
-  static constexpr double kDithered =
-      0.09;                                // 1, (w dt)^2 from which noise moves x over whole counts
-  static constexpr double kStands = 0.01;  // s, so long stands the reading of a held device
-  static constexpr double kLeans = 1.5e-3;  // s, so long the model would leave it on one side
-  static constexpr double kSticks = 0.5;    // N, friction with which it need not
-  static constexpr double kHolds = 2e-3;    // s, in which D takes what would move it
-  static constexpr double kMoving = 0.01;   // m/s, from here on the device moves
-  static constexpr double kSlow = 2.5e-3;   // m/s, from here on a quiet sensor counts as any other
-  static constexpr double kQuiet = 0.5;     // of the declared noise: less is a quiet sensor
-  static constexpr double kRests = 0.05;    // s, until it counts as resting
-  static constexpr double kLeast = 0.2;     // of the share within a count, without noise
-  static constexpr double kMemory = 0.05;   // s, of the contradictions
-  static constexpr double kBears = 0.15;    // share of ticks that may contradict
-  static constexpr double kLearn = 2;       // from here to 1/2 more, all gains rise to those of w
-  static constexpr double kPatience = 3.5e-3;  // s, half a period of a cable's resonance of 140 Hz
 
   double acceleration() const EBAC_RT {
     const double pull = measured_ + disturbance_ - damping_ * u_ - motor_.shown();
@@ -225,59 +203,35 @@ class AxisObserver {
   }
 
   void correct(double reading) EBAC_RT {
-    const double count = params_.count;
     const double off = reading - x_;
-    const double within = std::clamp(off, -count, count);
-    if (learns_ && !old_) strength_.learn(within, v_, dt_);
-    const double noisy = std::clamp(2.5 * noise_.rough() - 0.5, 0.0, 1.0);
-    contradicted_ += ((std::abs(off) > 1.5 * count ? 1.0 : 0.0) - contradicted_) * forget_;
-    moving_ = std::max(std::min(1.0, std::abs(u_) * (1 / kMoving)), moving_ * resting_);
-    double share = noise_.deviation() * per_noise_;
-    if (share < kQuiet)
-      share = std::max(share, std::clamp(moving_ * (kMoving / kSlow), kLeast, 1.0));
-    share *= within_;
-    const double innovation = off - (1 - noisy) * (1 - share) * within;
-    ObserverGains gain = at_rest_.towards(in_motion_, moving_);
-    const double wrong = std::max(noisy, std::min(1.0, kLearn * (contradicted_ - kBears)));
-    if (wrong > 0) gain = gain.towards(full_, wrong);
-    x_ += gain.x * innovation;
-    u_ += gain.v * innovation;
-    disturbance_ += gain.d * innovation * mass_;
+    if (learns_ && !old_) {
+      strength_.learn(std::clamp(off, -params_.count, params_.count), v_, dt_);
+    }
+    const ObserverGains more = gains_.correct(off, u_, noise_);
+    x_ += more.x;
+    u_ += more.v;
+    disturbance_ += more.d * mass_;
   }
 
-  /// Keeps x by the reading. A device whose reading stands while the model would `pull` it on [N] is held, as by more
-  /// friction than is known: the model stops, and D takes the pull. A hand that shakes within a count turns sooner
-  /// than the model leans out of the reading; the more friction there is, the likelier a device is held.
+  /// Keeps x by the reading. Of a device that is held the model stops, and D takes the `pull` [N] that would move it.
   void keep_place(double reading, double pull) EBAC_RT {
     const double room = kCell * params_.count;
     const double beyond = x_ - std::clamp(x_, reading - room, reading + room);
     x_ -= beyond;
-    stands_ = std::abs(reading - reading_) < 0.5 * params_.count ? stands_ + unread_ : 0;
-    if (beyond * leans_ <= 0) leans_ = 0;
-    if (beyond != 0) leans_ += std::copysign(unread_, beyond);
-    if (stands_ < kStands || beyond * u_ <= 0 || std::abs(leans_) < leaning_) return;
-    if (pull * u_ > 0) disturbance_ -= holding_ * pull;
+    const bool stood = std::abs(reading - proven_.reading()) < 0.5 * params_.count;
+    held_.take(stood, beyond, proven_.unread());
+    if (!held_.held(beyond * u_ > 0)) return;
+    if (pull * u_ > 0) disturbance_ -= held_.taking() * pull;
     u_ = 0;
   }
 
-  /// Two readings prove the mean velocity between them within a count; now, it may be off by half of
-  /// what it changes by, each to a count. A force that is wrong by far does not lead beyond that for
-  /// longer than `kPatience`. Where motor and handle ring on a cable, the sign alternates sooner.
+  /// Keeps v by what the readings prove of it.
   void keep_pace(double reading) EBAC_RT {
-    const double per_time = unread_ == dt_ ? per_dt_ : 1 / unread_;
-    const double pace = (reading - reading_) * per_time;
-    const double unsure = 2 * params_.count * per_time + 0.5 * std::abs(pace - pace_);
-    const double off = v_ - std::clamp(v_, pace - unsure, pace + unsure);
-    const double less = std::copysign(std::max(0.0, std::abs(astray_) - unread_), astray_);
-    astray_ = off == 0 ? less : (off * astray_ < 0 ? 0.0 : astray_) + std::copysign(unread_, off);
-    if (std::abs(astray_) > kPatience) {
-      contradicted_ += (1 - contradicted_) * forget_;
-      u_ -= off;
-      v_ -= off;
-    }
-    reading_ = reading;
-    pace_ = pace;
-    unread_ = 0;
+    const double off = proven_.take(reading, v_);
+    if (!proven_.refuted()) return;
+    gains_.contradict();
+    u_ -= off;
+    v_ -= off;
   }
 
   void set_tick(double dt) EBAC_RT;
@@ -287,7 +241,9 @@ class AxisObserver {
   double mass_;         // kg
   double per_mass_;     // 1/kg
   double damping_ = 0;  // N s/m
-  double leaning_;      // s
+  GainSchedule gains_;
+  HeldDevice held_;
+  ProvenVelocity proven_;
   MotorForce motor_;
   MotorEcho echo_;
   MotorStrength strength_;
@@ -303,24 +259,9 @@ class AxisObserver {
   bool learns_ = false;
   double measured_ = 0;     // N
   double before_last_ = 0;  // N, the reading before
-  double contradicted_ = 0;
-  double reading_ = 0;  // m, the last one
-  double pace_ = 0;     // m/s, mean velocity between the last two
-  double unread_ = 0;   // s, since the last one
-  double leans_ = 0;    // s, for which x would leave the reading, with the sign of the side
-  double stands_ = 0;   // s, for which the reading has not changed
-  double astray_ = 0;   // s, that v was beyond what the readings prove, with the sign of its error
-  double dt_ = 0;       // s, argument of the last set_tick
-  double per_dt_ = 0;   // 1/s
-  double undoubted_ = 0;  // N, the disturbance when the force began to be old
-  bool old_ = false;      // the force
-  double moving_ = 1;     // 1 in motion, 0 at rest
-  ObserverGains in_motion_{}, at_rest_{}, full_{};
-  double within_ = 1;     // share of an innovation within a count
-  double per_noise_ = 1;  // 1/N, of the declared noise
-  double resting_ = 0;    // share kept per tick
-  double holding_ = 0;    // share taken per tick
-  double forget_ = 0;
+  double dt_ = 0;           // s, argument of the last set_tick
+  double undoubted_ = 0;    // N, the disturbance when the force began to be old
+  bool old_ = false;        // the force
 };
 
 }  // namespace ebac
