@@ -220,7 +220,7 @@ class AxisObserver {
     x_ -= beyond;
     const bool stood = std::abs(reading - proven_.reading()) < 0.5 * params_.count;
     held_.take(stood, beyond, proven_.unread());
-    if (!held_.held(beyond * u_ > 0)) return;
+    if (!held_.held(beyond * u_)) return;
     if (pull * u_ > 0) disturbance_ -= held_.taking() * pull;
     u_ = 0;
   }

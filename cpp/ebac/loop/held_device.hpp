@@ -27,9 +27,9 @@ class HeldDevice {
     if (beyond != 0) leans_ += std::copysign(time, beyond);
   }
 
-  /// Whether it is held against a velocity that leads `outwards`, or not.
-  bool held(bool outwards) const EBAC_RT {
-    return stands_ >= kStands && outwards && std::abs(leans_) >= leaning_;
+  /// Whether it is held against a motion of the model `outwards` (above zero).
+  bool held(double outwards) const EBAC_RT {
+    return !(stands_ < kStands || outwards <= 0 || std::abs(leans_) < leaning_);
   }
 
   /// Share of the force that moves the model which counts as that of what holds it, per tick.
