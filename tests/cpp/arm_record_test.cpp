@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <stdexcept>
+#include <string>
 #include <vector>
 
 #include "ebac/identify/arm_step.hpp"
@@ -320,6 +322,43 @@ TEST(ArmRecord, WhatDoesNotFitIsRefused) {
     log.switches = {std::nan("")};
     log.segments = {0, 1};
   });
+}
+
+TEST(ArmGuess, RefusesWhatIsNoNumber) {
+  const std::vector<std::string> names{"mass",  "damping", "stiffness", "delay",
+                                       "onset", "bend",    "a share",   "a level"};
+  for (std::size_t i = 0; i < kHand.size(); ++i) {
+    for (const double wrong : {std::nan(""), HUGE_VAL, -HUGE_VAL}) {
+      std::vector<double> theta = kHand;
+      theta[i] = wrong;
+      std::string why;
+      try {
+        ArmGuess::from(theta, 1);
+      } catch (const std::invalid_argument& error) {
+        why = error.what();
+      }
+      EXPECT_NE(why.find("theta[" + std::to_string(i) + "], " + names[i] + ", = "),
+                std::string::npos)
+          << why;
+    }
+  }
+}
+
+TEST(ArmRecord, ADelayBeyondTheLogHoldsItsFirstOrLastForce) {
+  ArmRecord::Log log = log_of(wave());
+  log.switches = {0.1};
+  log.segments = {0, 0};
+  const ArmRecord record(log);
+  for (const double delay : {-1e300, -1e9, 1e9, 1e300}) {
+    std::vector<double> theta = kHand;
+    theta[kDelay] = delay;
+    const ArmGuess guess = ArmGuess::from(theta, 1);
+    const ArmGains gains = record.gains(guess, {.force = 0.01});
+    EXPECT_EQ(gains.rows.size(), kRows);
+    std::vector<double> e(kRows);
+    record.innovations(guess, gains, e);
+    record.simulate(guess, 0, 0, e);
+  }
 }
 
 }  // namespace

@@ -13,11 +13,11 @@ constexpr double kSharpen = 1.0 / 12;
 /// Force readings some ticks later; at the ends the first and the last one hold.
 struct Shifted {
   std::span<const double> force;  // N
-  double ticks;
+  std::ptrdiff_t ticks;
 
   double operator()(std::ptrdiff_t row) const {
     const auto last = static_cast<std::ptrdiff_t>(force.size()) - 1;
-    const auto at = row + static_cast<std::ptrdiff_t>(ticks);
+    const auto at = row + ticks;
     return force[static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(at, 0, last))];
   }
   std::vector<double> column() const {
@@ -35,6 +35,11 @@ struct Shifted {
 
 double ArmRecord::whole_ticks(const ArmGuess& guess) const {
   return std::round(guess.delay / log_.dt);
+}
+
+std::ptrdiff_t ArmRecord::within(double rows, std::size_t most) {
+  const auto limit = static_cast<double>(most);
+  return std::isnan(rows) ? 0 : static_cast<std::ptrdiff_t>(std::clamp(rows, -limit, limit));
 }
 
 double ArmRecord::late_by(const ArmGuess& guess, double ticks) const {
@@ -62,10 +67,11 @@ ArmRecord::Drive ArmRecord::drive(const ArmGuess& guess, double ticks) const {
 }
 
 std::vector<double> ArmRecord::driving_force(const ArmGuess& guess, double ticks) const {
-  std::vector<double> out = Shifted{log_.force, ticks}.column();
+  const Shifted shifted{log_.force, within(ticks, rows() + 1)};  // from there on all hold the last
+  std::vector<double> out = shifted.column();
   const double sharpen = kSharpen + guess.bend;
-  double before = Shifted{log_.force, ticks}(-1), here = out[0];
-  const double last = Shifted{log_.force, ticks}(static_cast<std::ptrdiff_t>(rows()));
+  double before = shifted(-1), here = out[0];
+  const double last = shifted(static_cast<std::ptrdiff_t>(rows()));
   for (std::size_t i = 0; i < rows(); ++i) {
     const double after = i + 1 < rows() ? out[i + 1] : last;
     out[i] = here - sharpen * (after - 2 * here + before);
@@ -145,7 +151,7 @@ std::vector<double> ArmRecord::target_slope(const ArmGuess& guess, double ticks,
 }
 
 std::vector<double> ArmRecord::bend_slope(double ticks) const {
-  const Shifted raw{log_.force, ticks};
+  const Shifted raw{log_.force, within(ticks, rows() + 1)};
   std::vector<double> out(rows());
   for (std::size_t i = 0; i < rows(); ++i) out[i] = -raw.curvature(static_cast<std::ptrdiff_t>(i));
   return out;

@@ -1,11 +1,13 @@
 #include "ebac/identify/arm_record.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <stdexcept>
 #include <string>
 #include <utility>
 
+#include "ebac/core/check.hpp"
 #include "ebac/identify/arm_spread.hpp"
 #include "ebac/identify/arm_step.hpp"
 
@@ -27,6 +29,15 @@ void require_numbers(const std::vector<double>& values, const std::string& name)
 }  // namespace
 
 ArmGuess ArmGuess::from(std::span<const double> theta, std::size_t inputs) {
+  for (std::size_t i = 0; i < theta.size(); ++i) {
+    if (std::isfinite(theta[i])) continue;
+    constexpr std::array<const char*, kBeforeInputs> kNames{"mass",  "damping", "stiffness",
+                                                            "delay", "onset",   "bend"};
+    const std::string name =
+        i < kBeforeInputs ? kNames[i] : (i < kBeforeInputs + inputs ? "a share" : "a level");
+    refuse(true, "theta[" + std::to_string(i) + "], " + name + ", = " + shortest(theta[i]) +
+                     ": must be a finite number");
+  }
   return {theta[0],
           theta[1],
           theta[2],
@@ -83,10 +94,11 @@ std::vector<double> ArmRecord::jumps(const ArmGuess& guess) const {
   const auto level = [&](std::size_t k) {
     return guess.levels[static_cast<std::size_t>(log_.segments[k])];
   };
+  constexpr std::size_t kAround = 4;  // rows, more than a jump is felt in
   for (std::size_t k = 0; k < log_.switches.size(); ++k) {
     const double size = guess.stiffness * std::abs(level(k + 1) - level(k));
     const double at = log_.switches[k] + guess.onset + late_by(guess, whole_ticks(guess));
-    const auto row = static_cast<std::ptrdiff_t>(at / log_.dt);
+    const std::ptrdiff_t row = within(at / log_.dt, rows() + kAround);
     for (std::ptrdiff_t i = row - 2; i <= row + 3; ++i) {
       if (i >= 0 && i < static_cast<std::ptrdiff_t>(rows()))
         out[static_cast<std::size_t>(i)] = size;

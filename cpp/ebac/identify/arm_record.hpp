@@ -24,6 +24,7 @@ struct ArmGuess {
   std::span<const double> shares{};  // of the inputs; each product is a force [N]
   std::span<const double> levels{};  // m
 
+  /// Throws std::invalid_argument for a theta that has no finite number somewhere.
   static ArmGuess from(std::span<const double> theta, std::size_t inputs);
 };
 
@@ -153,6 +154,8 @@ class ArmRecord {
   /// one at a row, which a fit takes for a reason to prefer it. In a search the ticks stay those of
   /// the gains, so that nothing jumps.
   double whole_ticks(const ArmGuess& guess) const;
+  /// A number of rows, without its fraction, within `most` in either direction; 0 for NaN.
+  static std::ptrdiff_t within(double rows, std::size_t most);
   double late_by(const ArmGuess& guess, double ticks) const;  // s
   std::vector<double> jumps(const ArmGuess& guess) const;     // N
   double mean_target(std::size_t tick, double onset, std::span<const double> levels,
