@@ -47,6 +47,19 @@ class OthersRun {
   PyThreadState* state_;
 };
 
+/// Deletes what ends a thread of its own, without the interpreter's lock: that thread may wait for it.
+struct WithoutLock {
+  template <class T>
+  void operator()(T* object) const {
+    if (PyGILState_Check() == 0) {
+      delete object;
+      return;
+    }
+    const OthersRun others_run;
+    delete object;
+  }
+};
+
 /// Takes the interpreter's lock for a scope; one that has it already keeps it.
 class Held {
  public:

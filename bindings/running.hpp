@@ -109,7 +109,7 @@ class RealTimeRun final : public Running {
   /// Starts; throws what `rt::Thread` and the parts of the loop throw.
   RealTimeRun(can::AnyBus bus, const AnyLaw& law, const RunSetup& setup);
 
-  /// Waits for the end of the loop, then stops the stream of the sensor.
+  /// Waits for the end of the loop, then stops the stream of the sensor, once; from any thread, and from several.
   void join() override;
   bool done() const override { return thread_->done(); }
   bool at_rest() const override { return thread_->loop().device().at_rest(); }
@@ -122,6 +122,8 @@ class RealTimeRun final : public Running {
   Hardware hardware(const RunSetup& setup);
 
   can::AnyBus bus_;
+  std::mutex joining_;
+  bool stopped_ = false;            // the stream of the sensor
   std::unique_ptr<Thread> thread_;  // last: it stops before the others go
 };
 

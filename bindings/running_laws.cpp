@@ -1,7 +1,10 @@
 #include <pybind11/stl.h>
 
+#include <utility>
+
 #include "ebac/loop/retune.hpp"
 #include "law_class.hpp"
+#include "others_run.hpp"
 #include "running.hpp"
 #include "stepped_run.hpp"
 
@@ -35,7 +38,9 @@ Hardware RealTimeRun::hardware(const RunSetup& setup) {
 }
 
 void RealTimeRun::join() {
+  const std::scoped_lock one_by_one(joining_);
   thread_->join();
+  if (std::exchange(stopped_, true)) return;
   auto& sensor = thread_->loop().device().device().device().device().sensor();
   if (sensor.client() != nullptr) sensor.client()->stop();
 }
@@ -57,7 +62,7 @@ void add_start(const LawClass& law) {
   law.def(
       "_start",
       [](const AnyLaw& any, const py::object& bus, const RunSetup& setup) {
-        return std::shared_ptr<Running>(std::make_shared<RealTimeRun>(take_bus(bus), any, setup));
+        return std::shared_ptr<Running>(new RealTimeRun(take_bus(bus), any, setup), WithoutLock());
       },
       "(self: LAW, bus: object, setup: ebac._core.RunSetup) -> ebac._core.Running", "",
       py::arg("bus"), py::arg("setup"));

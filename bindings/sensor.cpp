@@ -124,7 +124,7 @@ void bind_setup(py::module_& m) {
       .def(py::init([](const std::string& host, int port, const FtScale& scale,
                        const std::array<double, 9>& rotation, int sign, SensorModel model,
                        double retry, double gone, const std::array<double, 6>& bias) {
-             return RdtClientSetup{.sensor = sensor::resolve(host, checked_port(port, 1)),
+             return RdtClientSetup{.sensor = resolved(host, checked_port(port, 1)),
                                    .link = {.scale = scale,
                                             .mounting = checked_mounting(rotation, sign),
                                             .bits = sensor::StatusBits::of(model),

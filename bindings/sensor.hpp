@@ -6,6 +6,7 @@
 
 #include "ebac/sensor/mounting.hpp"
 #include "ebac/sensor/udp.hpp"
+#include "endpoint.hpp"
 #include "fields.hpp"
 #include "from_system.hpp"
 

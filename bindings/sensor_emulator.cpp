@@ -31,20 +31,22 @@ EmulatorServer::Source from_hand(const Setup& setup) {
   };
 }
 
-std::unique_ptr<EmulatorServer> serve(const std::string& host, int port,
-                                      const EmulatorOptions& options,
-                                      const std::array<double, 9>& rotation, int sign,
-                                      sensor::SensorModel model, std::uint64_t seed,
-                                      EmulatorServer::Source source) {
-  const sensor::Endpoint at = sensor::resolve(host, checked_port(port, 0));
+/// Its thread may call a hand in Python.
+using EmulatorHolder = std::unique_ptr<EmulatorServer, WithoutLock>;
+using EmulatorClass = py::class_<EmulatorServer, EmulatorHolder>;
+
+EmulatorHolder serve(const std::string& host, int port, const EmulatorOptions& options,
+                     const std::array<double, 9>& rotation, int sign, sensor::SensorModel model,
+                     std::uint64_t seed, EmulatorServer::Source source) {
+  const sensor::Endpoint at = resolved(host, checked_port(port, 0));
   const RdtEmulator<sensor::Endpoint> emulator(options, checked_mounting(rotation, sign),
                                                sensor::StatusBits::of(model), seed);
   return from_system(
-      [&] { return std::make_unique<EmulatorServer>(at, emulator, std::move(source)); });
+      [&] { return EmulatorHolder(new EmulatorServer(at, emulator, std::move(source))); });
 }
 
 template <class Source, class Turn>
-void add_init(py::class_<EmulatorServer>& cls, Turn turn) {
+void add_init(EmulatorClass& cls, Turn turn) {
   cls.def(py::init([turn](const std::string& host, int port, const Source& source,
                           const EmulatorOptions& options, const std::array<double, 9>& rotation,
                           int sign, sensor::SensorModel model, std::uint64_t seed) {
@@ -75,7 +77,7 @@ void bind_values(py::module_& m) {
 
 void bind_sensor_emulator(py::module_& m) {
   bind_values(m);
-  py::class_<EmulatorServer> cls(
+  EmulatorClass cls(
       m, "RdtEmulator",
       "An emulated force/torque sensor on the network, in real time, in a thread of its own "
       "that\n"

@@ -42,6 +42,23 @@ struct Script {
   }
 };
 
+TEST(EmulatorServer, SeveralThreadsMayStopIt) {
+  for (int i = 0; i < 20; ++i) {
+    EmulatorServer server(kAnyPort, RdtEmulator<Endpoint>(),
+                          [](double) { return EmulatorServer::Force{}; });
+    server.start();
+    std::atomic<int> ready{0};
+    const auto stop = [&] {
+      ready.fetch_add(1);
+      while (ready.load() < 2) std::this_thread::yield();
+      server.stop();
+    };
+    std::thread other(stop);
+    stop();
+    other.join();
+  }
+}
+
 TEST(RdtClient, AsksAndCountsExactly) {
   Script s;
   RdtRequest request;

@@ -19,6 +19,7 @@ void EmulatorServer::start(rt::Mode mode, const rt::Options& options) {
 
 void EmulatorServer::stop() noexcept {
   over_.store(true, std::memory_order_relaxed);
+  const std::scoped_lock one_by_one(stopping_);
   if (thread_) thread_->join();
   socket_.close();
 }

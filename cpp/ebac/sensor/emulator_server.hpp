@@ -34,7 +34,7 @@ class EmulatorServer {
 
   /// Once in a life: throws std::logic_error the second time or after a stop, and as rt::Thread.
   void start(rt::Mode mode = rt::Mode::kOff, const rt::Options& options = {});
-  /// Silent for good, within a few ms; nothing the second time.
+  /// Silent for good, within a few ms; nothing the second time. From any thread, and from several.
   void stop() noexcept;
 
   /// Resources its thread requested and was granted; empty before the start.
@@ -61,6 +61,7 @@ class EmulatorServer {
   Endpoint local_;
   std::atomic<bool> over_{false};
   std::mutex posting_;  // of callers of `set`; the thread needs no lock
+  std::mutex stopping_;
   Mailbox<EmulatorTrouble> trouble_;
   std::array<std::atomic<std::int64_t>, EmulatorCounts::fields().size()> published_{};
   std::optional<rt::Thread> thread_;  // last: it is joined before the others go
