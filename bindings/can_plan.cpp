@@ -6,10 +6,11 @@
 
 #include "bind.hpp"
 #include "ebac/can/frame_length.hpp"
+#include "ebac/canopen/loop_watch.hpp"
 #include "ebac/canopen/pdo_plan.hpp"
 #include "ebac/simulated_drives/exchange_benchmark.hpp"
 #include "ebac/simulated_drives/simulated_wire.hpp"
-#include "ebac/simulated_drives/timed_bus.hpp"
+#include "ebac/simulated_drives/through_can.hpp"
 #include "fields.hpp"
 #include "others_run.hpp"
 
@@ -98,21 +99,37 @@ void bind_wire(py::module_& m) {
       .def_property_readonly("busy", &SimulatedWire::busy, "Time in use so far [ns].");
 }
 
+can::BusLoad load_on_bus(int axes, double dt, const std::optional<can::TimedBus>& bus) {
+  return can::load_on_bus(axes, Timing{.dt = dt}, bus);
+}
+
+void check_watch(const std::string& name, double seconds, std::int64_t ms, const std::string& what,
+                 double period, double dt) {
+  can::check_watch({.name = name, .seconds = seconds, .ms = ms, .what = what, .period = period},
+                   dt);
+}
+
 }  // namespace
 
 void bind_can_plan(py::module_& m) {
   using can::BusLoad;
   using can::PlannedFrame;
-  py::class_<PlannedFrame>(m, "PlannedFrame", "One kind of frame that is sent in every period.")
-      .def(py::init([](std::string what, std::uint32_t id, int size, int count) {
-             return PlannedFrame{std::move(what), id, size, count};
+  py::class_<PlannedFrame>(
+      m, "PlannedFrame",
+      "One kind of frame that is sent in every period, or after a time of its own.")
+      .def(py::init([](std::string what, std::uint32_t id, int size, int count, double every) {
+             return PlannedFrame{std::move(what), id, size, count, every};
            }),
-           py::kw_only(), py::arg("what"), py::arg("id"), py::arg("size"), py::arg("count") = 1)
+           py::kw_only(), py::arg("what"), py::arg("id"), py::arg("size"), py::arg("count") = 1,
+           py::arg("every") = 0.0)
       .def_readonly("what", &PlannedFrame::what, "Sender and content.")
       .def_readonly("id", &PlannedFrame::id, "COB-ID.")
       .def_readonly("size", &PlannedFrame::size, "Bytes of data.")
-      .def_readonly("count", &PlannedFrame::count, "Frames per period.");
-  py::class_<BusLoad>(m, "BusLoad", "Worst-case load of a bus by frames sent in every period.")
+      .def_readonly("count", &PlannedFrame::count, "Frames per period, or at a time.")
+      .def_readonly("every", &PlannedFrame::every,
+                    "Time from one to the next [s]; 0 for frames of every period.");
+  py::class_<BusLoad>(m, "BusLoad",
+                      "Worst-case load of a bus by frames that are sent again and again.")
       .def(py::init([](std::vector<PlannedFrame> frames, double bit_rate, double period) {
              return BusLoad{std::move(frames), bit_rate, period};
            }),
@@ -122,15 +139,16 @@ void bind_can_plan(py::module_& m) {
       .def_readonly("period", &BusLoad::period, "Time between two SYNC frames [s].")
       .def("bits", py::overload_cast<const PlannedFrame&>(&BusLoad::bits, py::const_),
            py::arg("frame"),
-           "Return the bits of one kind of frame per period, stuff bits included.")
+           "Return the bits of one kind of frame in a period in which it comes, stuff bits "
+           "included.")
       .def("frame_share", py::overload_cast<const PlannedFrame&>(&BusLoad::share, py::const_),
            py::arg("frame"), "Return the share of the bus used by one kind of frame, 0 to 1.")
       .def_property_readonly(
           "seconds", [](const BusLoad& load) { return load.seconds(); },
-          "Time used by all frames in every period [s].")
+          "Time used by all frames in a period in which all of them come [s].")
       .def_property_readonly(
           "share", [](const BusLoad& load) { return load.share(); },
-          "Share of the bus used by all frames, 0 to 1.")
+          "Share of the bus used by all frames on average, 0 to 1.")
       .def_property_readonly("highest_rate", &BusLoad::highest_rate,
                              "Highest rate at which the same frames fit on the bus [Hz].")
       .def("check", &can::check_load,
@@ -150,6 +168,10 @@ void bind_can_plan(py::module_& m) {
       py::arg("nodes"),
       "SYNC, and for every node an RPDO (controlword, target torque) and a TPDO (statusword,\n"
       "position, actual torque): the frames of one tick (CiA 301, CiA 402).");
+  m.def("_load_on_bus", &load_on_bus, py::arg("axes"), py::arg("dt"), py::arg("bus"));
+  m.def("_beat_period", &can::beat_period, py::arg("silence"));
+  m.def("_check_watch", &check_watch, py::arg("name"), py::arg("seconds"), py::arg("ms"),
+        py::arg("what"), py::arg("period"), py::arg("dt"));
   const py::call_guard<OthersRun> others_run;
   m.def("_time_exchange", &can::time_exchange, py::arg("ticks"), py::arg("repeats"), others_run);
   m.def("_time_own_exchange", &can::time_own_exchange, py::arg("ticks"), py::arg("repeats"),

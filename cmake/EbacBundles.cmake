@@ -23,7 +23,7 @@ ebac_bundle(ebac model cpp/ebac core/matrix_exponential model/device model/exact
             model/kinematics model/limits model/linear_flow model/stepped_plant world/engine/engine_client
             world/engine/make_bridge world/engine/shared_channel world/make)
 ebac_bundle(ebac machine cpp/ebac can/raw_socket can/socketcan can/wake_event
-            canopen/canopen_setup canopen/eds canopen/pdo canopen/pdo_plan
+            canopen/canopen_setup canopen/eds canopen/loop_watch canopen/pdo canopen/pdo_plan
             rt/awake_cpus rt/grants rt/jitter rt/other_process rt/shared_memory rt/thread
             sensor/emulator_server sensor/rdt_client sensor/udp sim/linear_loop
             simulated_drives/simulated_drive simulated_drives/simulated_drive_errors

@@ -6920,7 +6920,7 @@ class EBAC:
 
 class PlannedFrame:
     """
-    One kind of frame that is sent in every period.
+    One kind of frame that is sent in every period, or after a time of its own.
     """
     def __init__(
         self,
@@ -6929,11 +6929,17 @@ class PlannedFrame:
         id: typing.SupportsInt | typing.SupportsIndex,
         size: typing.SupportsInt | typing.SupportsIndex,
         count: typing.SupportsInt | typing.SupportsIndex = 1,
+        every: typing.SupportsFloat | typing.SupportsIndex = 0.0,
     ) -> None: ...
     @property
     def count(self) -> int:
         """
-        Frames per period.
+        Frames per period, or at a time.
+        """
+    @property
+    def every(self) -> float:
+        """
+        Time from one to the next [s]; 0 for frames of every period.
         """
     @property
     def id(self) -> int:
@@ -7023,7 +7029,7 @@ class BridgeParams:
 
 class BusLoad:
     """
-    Worst-case load of a bus by frames sent in every period.
+    Worst-case load of a bus by frames that are sent again and again.
     """
     def __init__(
         self,
@@ -7034,7 +7040,7 @@ class BusLoad:
     ) -> None: ...
     def bits(self, frame: PlannedFrame) -> int:
         """
-        Return the bits of one kind of frame per period, stuff bits included.
+        Return the bits of one kind of frame in a period in which it comes, stuff bits included.
         """
     def check(self) -> str:
         """
@@ -7072,12 +7078,12 @@ class BusLoad:
     @property
     def seconds(self) -> float:
         """
-        Time used by all frames in every period [s].
+        Time used by all frames in a period in which all of them come [s].
         """
     @property
     def share(self) -> float:
         """
-        Share of the bus used by all frames, 0 to 1.
+        Share of the bus used by all frames on average, 0 to 1.
         """
 
 class TimedBus:
@@ -9371,6 +9377,7 @@ def _ask_realtime(options: RealTime) -> list[Grant]:
     Return the grants for a thread of this process.
     """
 
+def _beat_period(silence: typing.SupportsFloat | typing.SupportsIndex) -> float: ...
 def _check_limits(limits: Limits) -> None: ...
 def _check_sensor(
     port: typing.SupportsInt | typing.SupportsIndex,
@@ -9385,6 +9392,14 @@ def _check_sensor(
     Raise ValueError if a value is out of range.
     """
 
+def _check_watch(
+    name: str,
+    seconds: typing.SupportsFloat | typing.SupportsIndex,
+    ms: typing.SupportsInt | typing.SupportsIndex,
+    what: str,
+    period: typing.SupportsFloat | typing.SupportsIndex,
+    dt: typing.SupportsFloat | typing.SupportsIndex,
+) -> None: ...
 def _decode_record(
     data: bytes,
 ) -> tuple[
@@ -9471,6 +9486,11 @@ def _ideal_contacts(
 ) -> dict[str, typing.Any]: ...
 def _intersection(arg0: collections.abc.Sequence[_Solid]) -> _Solid: ...
 def _inverted(arg0: _Solid) -> _Solid: ...
+def _load_on_bus(
+    axes: typing.SupportsInt | typing.SupportsIndex,
+    dt: typing.SupportsFloat | typing.SupportsIndex,
+    bus: TimedBus | None,
+) -> BusLoad: ...
 def _measure_contact(
     *,
     t: typing.Annotated[numpy.typing.ArrayLike, numpy.float64],

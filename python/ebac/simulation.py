@@ -247,10 +247,7 @@ def on_bus(scenario: Scenario, through: str, bus: _core.TimedBus | None = None) 
     """
     if through != "can":
         raise ValueError(f"through = {through!r}: must be 'can' or None")
-    nodes = list(range(1, scenario.device.axes + 1))
-    rate = (bus or _core.TimedBus()).bit_rate
-    load = _core.BusLoad(frames=_core.pdo_plan(nodes), bit_rate=rate, period=scenario.timing.dt)
-    warning = load.check()
+    warning = _core._load_on_bus(scenario.device.axes, scenario.timing.dt, bus).check()
     if warning:
         warnings.warn(warning, stacklevel=3)
     drive = scenario.device.drive.replace(permille=True)

@@ -3,7 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace ebac::can::pdo_plan_test {
 namespace {
@@ -81,6 +84,47 @@ TEST(BusLoad, OfTwoDrivesAtOneKilohertz) {
   double sum = 0;
   for (const PlannedFrame& frame : load.frames) sum += load.share(frame);
   EXPECT_NEAR(sum, load.share(), 1e-12);
+}
+
+TEST(BusLoad, HeartbeatsComeAfterATimeOfTheirOwn) {
+  BusLoad load = load_of({1, 2});
+  for (PlannedFrame& beat : heartbeat_plan(std::vector{1, 2}, 0.1, 100, 0.01)) {
+    load.frames.push_back(std::move(beat));
+  }
+  ASSERT_EQ(load.frames.size(), 8);
+  EXPECT_EQ(load.frames[5].id, 0x701);
+  EXPECT_EQ(load.frames[6].id, 0x702);
+  EXPECT_EQ(load.frames[7].id, 0x764);
+  EXPECT_EQ(load.bits(), 515 + 3 * 65);  // of a tick in which all of them come
+  EXPECT_NEAR(load.share(), 0.515 + 2 * 65e-5 + 65e-4, 1e-12);
+  double sum = 0;
+  for (const PlannedFrame& frame : load.frames) sum += load.share(frame);
+  EXPECT_NEAR(sum, load.share(), 1e-12);
+  // At its highest rate the process data leave what the heartbeats take.
+  BusLoad fastest = load;
+  fastest.period = 1 / load.highest_rate();
+  EXPECT_NEAR(fastest.share(), kRefusedLoad, 1e-12);
+}
+
+TEST(BusLoad, AFrameMoreOftenThanThePeriodComesSeveralTimesInOne) {
+  const BusLoad load{.frames = heartbeat_plan(std::vector{1}, 1e-3, 100, 0), .period = 4e-3};
+  EXPECT_EQ(load.bits(), 5 * 65);
+  EXPECT_NEAR(load.share(), 0.065, 1e-12);
+}
+
+TEST(BusLoad, RefusesATimeThatNoFrameHas) {
+  for (const double every : {-1.0, 1e-9, std::nan(""), HUGE_VAL}) {
+    const PlannedFrame frame{.what = "odd", .id = 1, .every = every};
+    EXPECT_NE(refusal({.frames = {frame}}).find("BusLoad.every"), string::npos) << every;
+    EXPECT_GE((BusLoad{.frames = {frame}}.bits()), 0);
+  }
+}
+
+TEST(HeartbeatPlan, HasThoseThatAreSent) {
+  EXPECT_TRUE(heartbeat_plan(std::vector{1, 2}, 0, 0, 0).empty());
+  EXPECT_EQ(heartbeat_plan(std::vector{1, 2}, 0.1, 0, 0).size(), 2);
+  EXPECT_THROW(static_cast<void>(heartbeat_plan(std::vector{1}, 0.1, 0, 0.1)),
+               std::invalid_argument);
 }
 
 TEST(BusLoad, AForceSensorOnTheSameBusIsWarnedOf) {

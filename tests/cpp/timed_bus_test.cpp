@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <string>
+#include <utility>
 
 #include "ebac/control/direct.hpp"
 #include "ebac/sim/simulated_device.hpp"
@@ -72,6 +73,38 @@ TEST(TimedBus, ADriveThatWaitsForLessThanATickIsRefused) {
   // The loop's heartbeat comes with the second tick, after 1.4 ms.
   EXPECT_NE(refused({.loop_silence = 0.001, .torque_silence = 0}, 0.0007), "");
   EXPECT_EQ(refused({.loop_silence = 0.002, .torque_silence = 0}, 0.0007), "");
+}
+
+constexpr can::TimedBus kManyBeats{.drive_heartbeat = 1e-3, .loop_silence = 0.01};
+
+TEST(TimedBus, HeartbeatsCountAsThePdosDo) {
+  // SYNC and process data of three drives take 745 us of a millisecond, four heartbeats 260 us more.
+  EXPECT_NO_THROW(can::check_through_can(3, {}, can::TimedBus{.answer_share = 0.9}));
+  can::TimedBus beats = kManyBeats;
+  beats.answer_share = 0.9;
+  EXPECT_THROW(can::check_through_can(3, {}, beats), std::invalid_argument);
+  const std::string times = can::explain_times(2, {}, {});  // any of them may come in between
+  EXPECT_NE(times.find("after 477 to 760 us"), std::string::npos) << times;
+}
+
+TEST(TimedBus, NoMoreComesOnTheBusThanItsPlanSays) {
+  for (const can::TimedBus& bus : {can::TimedBus{}, kManyBeats}) {
+    Loop2 loop = loop_on(bus);
+    const can::SimulatedWire& wire = *std::as_const(loop.device().bench()).bus().wire();
+    const std::int64_t before = wire.busy();
+    loop.run(*loop.make_trace(1000));
+    EXPECT_EQ(loop.sample().fault, Fault::kNone);
+    const double used = static_cast<double>(wire.busy() - before) / 1e9;  // of a second
+    const double share = can::load_on_bus(2, {}, bus).share();
+    EXPECT_LE(used, share);
+    EXPECT_GE(used, 0.8 * share);
+  }
+}
+
+TEST(TimedBus, ABusWithoutTimeHasNoHeartbeats) {
+  EXPECT_EQ(can::load_on_bus(2, {}, {}).bits(), 515);
+  EXPECT_EQ(can::load_on_bus(2, {}, can::TimedBus{.drive_heartbeat = 0, .loop_silence = 0}).bits(),
+            515);
 }
 
 TEST(TimedBus, OffTheBusMeansZeroForceAndDrivesAtRest) {

@@ -56,7 +56,7 @@ def test_two_drives_at_one_kilohertz() -> None:
 def test_a_force_sensor_on_the_same_bus_is_warned_of() -> None:
     code, text = call("--force-sensor")
     assert code == 0
-    assert "Warning: the process data take 785 us of each 1000 us, 78.5 %" in text
+    assert "Warning: the planned frames take 785 us of each 1000 us, 78.5 %" in text
 
 
 def test_two_kilohertz_are_refused_after_the_table() -> None:

@@ -60,6 +60,25 @@ def test_an_exchange_of_five_frames_takes_under_half_a_millisecond_at_1_mbit() -
     assert 0.38 < found.load < 0.515
 
 
+def test_the_loops_own_signs_of_life_take_their_time() -> None:
+    def load(**values: float) -> float:
+        nodes = tuple(
+            dataclasses.replace(
+                one,
+                profile=dataclasses.replace(one.profile, values={**one.profile.values, **values}),
+            )
+            for one in drives.load("joystick").nodes
+        )
+        return drives.bus_timing(network(nodes=nodes), ticks=1000).load
+
+    slow = {"heartbeat.producer": 60.0}
+    quiet = load(**slow, **{"heartbeat.consumer": 0.0})
+    beats = load(**slow, **{"heartbeat.consumer": 0.02})  # every 2 ms
+    assert 500 * 55e-6 < beats - quiet < 500 * 66e-6
+    asked = load(**slow, **{"heartbeat.consumer": 0.0, "heartbeat.guard": 0.05})  # every 10 ms
+    assert 200 * 100e-6 < asked - quiet < 200 * 121e-6  # a request and an answer of each
+
+
 def test_a_slow_bus_is_late_and_a_full_one_never_answers() -> None:
     slow = drives.bus_timing(network(500_000), ticks=100)
     assert slow.late == 100

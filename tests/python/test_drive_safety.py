@@ -276,7 +276,7 @@ def test_a_drive_that_would_fault_between_two_ticks_is_refused() -> None:
     known = configuration()
     with pytest.raises(
         drives.ProfileError,
-        match=r"node 1: pdo\.rpdo1\.event = 0\.005 s: the loop sends every 0\.005 s",
+        match=r"node 1: pdo\.rpdo1\.event = 0\.005 s: .* without a torque for 5 ms, .* after a tick of 0\.005 s",
     ):
         drives.check_pace(known.drives, 5e-3)
     quick = drives.Profile(name="mine", values={"heartbeat.consumer": 1e-3}, pdos=())
@@ -284,6 +284,20 @@ def test_a_drive_that_would_fault_between_two_ticks_is_refused() -> None:
     with pytest.raises(drives.ProfileError, match=r"heartbeat\.consumer = 0\.001 s"):
         drives.check_pace(network, 2.5e-4)
     drives.check_pace(known.drives, known.timing.dt)
+
+
+def test_a_drive_counts_whole_milliseconds() -> None:
+    """1.4 ms were compared with a tick of 1.2 ms, but the drive is told 1 ms: it faults in the first tick."""
+    (rpdo,) = (one for one in configuration().drives.nodes[0].profile.pdos if not one.sent)
+    profile = drives.Profile(
+        name="mine",
+        values={"heartbeat.master": 127},
+        pdos=(dataclasses.replace(rpdo, event=1.4e-3),),
+    )
+    network = drives.Network(name="mine", nodes=(drives.Node(id=1, profile=profile),))
+    drives.check_pace(network, 0.9e-3)
+    with pytest.raises(drives.ProfileError, match=r"event = 0\.0014 s: .* torque for 1 ms"):
+        drives.check_pace(network, 1.2e-3)
 
 
 @pytest.mark.parametrize("longest", [0.0, -1.0, float("nan")])

@@ -243,4 +243,4 @@ def test_the_command_tells_of_a_full_bus() -> None:
         ["wall", "--no-files", "--through", "can", "--rate", "3000", "--seconds", "0.1"],
     )
     assert result.exit_code == 0
-    assert "Warning: the process data take 285 us" in " ".join(result.output.split())
+    assert "Warning: the planned frames take 285 us" in " ".join(result.output.split())

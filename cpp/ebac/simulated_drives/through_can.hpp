@@ -10,6 +10,7 @@
 #include <tuple>
 #include <utility>
 
+#include "ebac/canopen/pdo_plan.hpp"
 #include "ebac/loop/loop.hpp"
 #include "ebac/loop/virtual_clock.hpp"
 #include "ebac/simulated_drives/can_test_bench.hpp"
@@ -17,6 +18,9 @@
 /// A simulated run whose currents and counts go over a CAN bus, through simulated drives. It gives
 /// the bits of one without, where the torque is in whole thousandths and the delay is one tick.
 namespace ebac::can {
+
+/// The frames of loop and drives on a bus: SYNC and process data, and heartbeats where the bus takes its time.
+BusLoad load_on_bus(int axes, const Timing& timing, const std::optional<TimedBus>& timed);
 
 /// How long the loop waits, and how long answers take: with the remedy.
 std::string explain_times(int axes, const Timing& timing, const TimedBus& bus);

@@ -57,6 +57,7 @@ class VirtualBus {
   bool timed() const EBAC_RT { return wire_.has_value(); }
   /// nullptr where there is none.
   SimulatedWire* wire() EBAC_RT { return wire_ ? &*wire_ : nullptr; }
+  const SimulatedWire* wire() const EBAC_RT { return wire_ ? &*wire_ : nullptr; }
 
  private:
   bool arrive(std::size_t from, const Frame& frame) EBAC_RT {

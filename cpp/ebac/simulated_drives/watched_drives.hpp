@@ -8,6 +8,7 @@
 #include <string>
 
 #include "ebac/canopen/canopen_setup.hpp"
+#include "ebac/canopen/loop_watch.hpp"
 #include "ebac/canopen/torque.hpp"
 #include "ebac/model/device.hpp"
 #include "ebac/simulated_drives/simulated_drive.hpp"
@@ -44,7 +45,7 @@ inline CanopenSetup can_setup(const DeviceModel& device, const std::optional<Tim
   setup.heartbeat_timeout = 3 * (static_cast<double>(watches_of(*bus).drive_heartbeat) / 1e3);
   if (bus->loop_silence > 0) {
     setup.own_node = kLoopNode;
-    setup.heartbeat_period = std::clamp(bus->loop_silence / 10, 1e-3, 60.0);
+    setup.heartbeat_period = beat_period(bus->loop_silence);
   }
   return setup;
 }

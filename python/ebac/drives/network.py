@@ -17,6 +17,7 @@ from ebac.drives.load import BITRATES, BusLoad, Traffic, bus_load
 from ebac.drives.pdo import sync_period
 from ebac.drives.profile import Profile, builtin, read_profile, read_source
 from ebac.drives.sheets import check_sheet
+from ebac.drives.signs_of_life import loop_traffic
 from ebac.drives.toml_positions import Source
 
 #: Bit rate of a bus where none is given [bit/s].
@@ -71,11 +72,15 @@ class Network:
     others: tuple[Traffic, ...] = ()
 
     def bus_load(self) -> BusLoad:
-        """Return the worst-case load of the bus."""
+        """Return the worst-case load of the bus by all that loop and drives send again and again.
+
+        SDO is not among it, which a run uses before its loop and after it only, and no emergency, which ends the run.
+        """
         periods = [sync_period(node.profile.values) for node in self.nodes]
         frames = [frame for node in self.nodes for frame in node.profile.traffic(node.id)]
         sync = [Traffic(name="SYNC", size=0, rate=1 / min(periods))] if periods else []
-        return bus_load([*sync, *frames, *self.others], bitrate=self.bitrate)
+        signs = loop_traffic([(node.id, node.profile) for node in self.nodes])
+        return bus_load([*sync, *frames, *signs, *self.others], bitrate=self.bitrate)
 
     def check_load(self) -> str | None:
         """Return a warning when the bus is busier than comfortable.

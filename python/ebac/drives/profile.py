@@ -28,6 +28,8 @@ from ebac.drives.toml_positions import Source, dotted
 TABLES = tuple(dict.fromkeys(key.name.partition(".")[0] for key in KEYS))
 #: Keys of what a drive watches of the loop beside its torques: its heartbeat, or its requests (node guarding).
 SIGNS_OF_LIFE = ("heartbeat.consumer", "heartbeat.guard")
+#: Requests of node guarding in the time for which a drive waits for one.
+REQUESTS = 5
 
 
 @plain_constructor
@@ -139,7 +141,10 @@ class Profile:
         """Return the frames of a node that come again and again."""
         frames = [pdo.traffic(node, sync_period(self.values)) for pdo in self.pdos]
         if guard := float(self.values.get("heartbeat.guard", 0.0)):
-            return [*frames, Traffic(name=f"guarding of node {node}", size=1, rate=10 / guard)]
+            return [
+                *frames,
+                Traffic(name=f"guarding of node {node}", size=1, rate=2 * REQUESTS / guard),
+            ]
         beat = float(self.values["heartbeat.producer"])
         return [*frames, Traffic(name=f"heartbeat of node {node}", size=1, rate=1 / beat)]
 

@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-from math import ceil, inf
+from math import inf
 
+from ebac._core import _check_watch
 from ebac.drives.errors import ProfileError
 from ebac.drives.network import Network
 from ebac.drives.profile import SIGNS_OF_LIFE, Profile
+from ebac.drives.signs_of_life import own_beat, request_period
 
 #: The longest a drive may hold a torque that nobody commands any more [s].
 LONGEST = 0.5
-#: The shortest time between two heartbeats of a loop [s].
-LEAST_BEAT = 1e-3
 #: What `drive.connection_lost` makes of it (CiA 402-2, 0x6007).
 REACTION = {1: "fault, power off", 2: "power off", 3: "quick stop"}
 
@@ -89,6 +89,8 @@ def check_stall(network: Network) -> None:
 def check_pace(network: Network, tick: float) -> None:
     """Refuse drives that a loop on time lets fault, because they watch it for less than it takes to send again.
 
+    A simulated run on a `TimedBus` checks its watches by the same rule.
+
     Parameters
     ----------
     network : Network
@@ -101,13 +103,16 @@ def check_pace(network: Network, tick: float) -> None:
     ProfileError
         For the first such watch, with the remedy.
     """
+    profiles = [node.profile for node in network.nodes]
+    sent = {
+        "heartbeat.consumer": ("heartbeat", own_beat(profiles)),
+        "heartbeat.guard": ("request", request_period(profiles)),
+    }
     for node in network.nodes:
         for key, after in watches(node.profile).items():
-            least = LEAST_BEAT if key == "heartbeat.consumer" else tick
-            every = tick * ceil(max(least, tick) / tick * (1 - 1e-9))
-            if after <= every:
-                raise ProfileError(
-                    f"{network.name}: node {node.id}: {key} = {after:g} s: the loop sends every {every:g} s, in its "
-                    f"ticks of {tick:g} s, so the drive would fault at once; must be longer: "
-                    "give several times that, or shorter ticks"
-                )
+            what, period = sent.get(key, ("torque", 0.0))
+            name = f"{network.name}: node {node.id}: {key}"
+            try:
+                _check_watch(name, after, round(1e3 * after), what, period, tick)
+            except ValueError as error:
+                raise ProfileError(str(error)) from None

@@ -12,10 +12,13 @@ from ebac._util.arguments import whole
 from ebac._util.plural import plural
 from ebac._util.wrong_calls import plain_constructor
 from ebac.drives.network import Network
+from ebac.drives.signs_of_life import guards, own_beat, request_period
 
 #: Stations of the wire; the drives come after them.
 _LOOP, _OTHERS, _DRIVES = 0, 1, 2
 _SYNC = 0x080
+#: Heartbeats, and node guarding: of node n with n added.
+_SIGNS = 0x700
 
 
 @plain_constructor
@@ -91,11 +94,11 @@ def bus_timing(
 
     The wire is that of a simulated run on a `TimedBus`; here the data are random, so that stuff bits are.
 
-    In every tick the loop sends its torques and SYNC, and each drive answers with its process data; heartbeats and
-    the network's other traffic come beside. The lowest identifier that waits when the bus is free goes first (a station
-    sends its own frames in their order). A destroyed frame costs an error frame and is sent again; its sender counts 8
-    errors up, and 1 down for each frame that went well: above 127 it is error passive and waits 8 bits more, above 255
-    off the bus.
+    In every tick the loop sends its torques and SYNC, and each drive answers with its process data; heartbeats of
+    drives and loop, requests of node guarding and the network's other traffic come beside. The lowest identifier that
+    waits when the bus is free goes first (a station sends its own frames in their order). A destroyed frame costs an
+    error frame and is sent again; its sender counts 8 errors up, and 1 down for each frame that went well: above 127 it
+    is error passive and waits 8 bits more, above 255 off the bus.
 
     Parameters
     ----------
@@ -161,8 +164,15 @@ class _Exchanges:
         self.network, self.wire, self.dt, self.wait, self.chance = network, wire, dt, wait, chance
         self.names = ["loop", "others", *(f"node {node.id}" for node in network.nodes)]
         self.answers = {0x180 + node.id for node in network.nodes}
-        self.asked: dict[int, deque[int]] = defaultdict(deque)  # identifier: ticks of its frames
+        self.asked: dict[tuple[int, int], deque[int]] = defaultdict(
+            deque
+        )  # station, id: ticks of its frames
         self.came: dict[int, list[int]] = {}
+        profiles = [node.profile for node in network.nodes]
+        self.guarded = [guard > 0 for guard in guards(profiles)]
+        self.beat, self.request = own_beat(profiles), request_period(profiles)
+        self.next_beat = self.next_request = 0.0  # s, of the loop
+        self.master = int(profiles[0].values["heartbeat.master"]) if profiles else 0
 
     def run(self, ticks: int) -> BusTiming:
         next_other = [0.0 if other.rate else inf for other in self.network.others]
@@ -170,7 +180,7 @@ class _Exchanges:
         for tick in range(ticks):
             self._fill(tick, tick * self.dt, next_other, next_beat)
             while (came := self.wire.next(_ns((tick + 1) * self.dt))) is not None:
-                self._arrived(*came[1:])
+                self._arrived(*came)
         whole = [times for times in self.came.values() if len(times) == len(self.network.nodes)]
         spans = [max(times) for times in whole]  # ns
         stations = list(enumerate(self.names))
@@ -196,23 +206,42 @@ class _Exchanges:
             for pdo in node.profile.pdos:
                 if not pdo.sent:
                     self._put(_LOOP, start, pdo.cob_id(node.id) & 0x7FF, pdo.size, tick)
-            if start >= next_beat[i]:
+            if not self.guarded[i] and start >= next_beat[i]:
                 next_beat[i] += float(node.profile.values["heartbeat.producer"])
-                self._put(_DRIVES + i, start, 0x700 + node.id, 1, tick)
+                self._put(_DRIVES + i, start, _SIGNS + node.id, 1, tick)
         self._put(_LOOP, start, _SYNC, 0, tick)
+        self._fill_signs(tick, start)
         for i, other in enumerate(self.network.others):
             while next_other[i] < start + self.dt:
                 self._put(_OTHERS, next_other[i], 0x7A0 + i, other.size, tick)
                 next_other[i] += 1 / other.rate
 
-    def _put(self, station: int, when: float, cob_id: int, size: int, tick: int) -> None:
-        if self.wire.send(station, cob_id, self.chance.randbytes(size), _ns(when)):
-            self.asked[cob_id].append(tick)
+    def _fill_signs(self, tick: int, start: float) -> None:
+        """Send the loop's signs of life once it no longer waits for answers: before SYNC they would delay them."""
+        if self.beat and start >= self.next_beat:
+            self.next_beat += self.beat
+            self._send(_LOOP, start + self.wait, _SIGNS + self.master, b"\x05", tick)
+        if self.request and start >= self.next_request:
+            self.next_request += self.request
+            for node in self.network.nodes:  # a remote frame is as long as one without data
+                self._send(_LOOP, start + self.wait, _SIGNS + node.id, b"", tick)
 
-    def _arrived(self, cob_id: int, when: int) -> None:
-        tick = self.asked[cob_id].popleft()
+    def _put(self, station: int, when: float, cob_id: int, size: int, tick: int) -> None:
+        self._send(station, when, cob_id, self.chance.randbytes(size), tick)
+
+    def _send(self, station: int, when: float, cob_id: int, data: bytes, tick: int) -> None:
+        if self.wire.send(station, cob_id, data, _ns(when)):
+            self.asked[station, cob_id].append(tick)
+
+    def _arrived(self, station: int, cob_id: int, when: int) -> None:
+        tick = self.asked[station, cob_id].popleft()
         if cob_id in self.answers:
             self.came.setdefault(tick, []).append(when - _ns(tick * self.dt))
+        if station == _LOOP:
+            for i, node in enumerate(self.network.nodes):
+                if self.guarded[i] and cob_id == _SIGNS + node.id:
+                    due = 1e-9 * when + TimedBus().response
+                    self._send(_DRIVES + i, due, cob_id, b"\x05", tick)
         if cob_id != _SYNC:
             return
         for i, node in enumerate(self.network.nodes):

@@ -7,7 +7,7 @@ from math import ceil
 from typing import TYPE_CHECKING, Any
 
 from ebac import _core
-from ebac.drives.stall import LEAST_BEAT
+from ebac.drives.signs_of_life import guards, own_beat, request_period
 from ebac.hardware.configuration_fields import check_seconds
 from ebac.realtime.mode import mode_named
 
@@ -42,14 +42,12 @@ def run_setup(
     dt = known.timing.dt
     signs = known.signs
     ticks = max(1, round(seconds / dt))
-    profiles = [node.profile.values for node in nodes]
-    guards = [float(values.get("heartbeat.guard", 0.0)) for values in profiles]
-    guard = min((one for one in guards if one > 0), default=0.0)
-    sent = [float(values["heartbeat.producer"]) for values in profiles]
-    watched = [one / _BEATS if one else beat for one, beat in zip(guards, sent, strict=True)]
-    consumers = [float(values.get("heartbeat.consumer", 0.0)) for values in profiles]
-    masters = {int(values["heartbeat.master"]) for values in profiles}
-    beat = min((one for one in consumers if one > 0), default=0.0)
+    profiles = [node.profile for node in nodes]
+    sent = [float(one.values["heartbeat.producer"]) for one in profiles]
+    waits = zip(guards(profiles), sent, strict=True)
+    watched = [guard / _BEATS if guard else beat for guard, beat in waits]
+    masters = {int(one.values["heartbeat.master"]) for one in profiles}
+    beat = own_beat(profiles)
     watch = known.limits.watch_force and backend.sensor is not None
     both = known.limits.watch_motion and backend.sensor is not None
     limits = known.limits.replace(watch_force=watch, watch_motion=both)
@@ -84,8 +82,8 @@ def run_setup(
             "enable_ticks": ceil(_ENABLE / dt) + known.silent,
             "heartbeat_timeout": _BEATS * max(watched),
             "own_node": masters.pop() if beat > 0 else 0,  # one: `check_stall`
-            "heartbeat_period": max(LEAST_BEAT, beat / 10) if beat > 0 else 0.01,
-            "guard_period": guard / 5,
+            "heartbeat_period": beat or 0.01,
+            "guard_period": request_period(profiles),
         },
     )
 

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 from ebac._core import TimedBus
 from ebac.drives.frame_length import frame_bits, least_bits
 from ebac.drives.network import Network
+from ebac.drives.signs_of_life import own_beat, request_period
 from ebac.drives.stall import watches
 from ebac.hardware.drive_limits import allowed_ratio
 
@@ -58,12 +59,19 @@ def timed_bus(
 def exchange_times(known: Configuration) -> tuple[float, float]:
     """Return the least and the greatest time from a tick to its last answer [s].
 
-    The least has no stuff bit. The greatest has all there can be, and a heartbeat of every drive and each frame of
-    other traffic in between. No frame is destroyed.
+    The least has no stuff bit. The greatest has all there can be, and in between each frame of other traffic, a
+    heartbeat of every drive or a request of node guarding with its answer, and the loop's own heartbeat, which a late
+    tick sends just before the next one. No frame is destroyed.
     """
     network, bus = known.drives, known.timed_bus()
+    profiles = [node.profile for node in network.nodes]
     sizes = [0, *(pdo.size for node in network.nodes for pdo in node.profile.pdos)]
-    between = [*(1 for _ in network.nodes), *(other.size for other in network.others)]
+    # A drive sends its heartbeat, or answers a request instead.
+    between = [*(1 for _ in profiles), *(other.size for other in network.others)]
+    if own_beat(profiles) > 0:
+        between.append(1)
+    if request_period(profiles) > 0:
+        between += [0 for _ in profiles]
     least = sum(least_bits(size) for size in sizes) / network.bitrate
     most = sum(frame_bits(size) for size in [*sizes, *between]) / network.bitrate
     return least + bus.response, most + bus.response
