@@ -91,7 +91,7 @@ RunSetup make_setup(const DeviceModel& device, const Environment& environment, d
 
 using Told = std::tuple<std::int64_t, std::uint64_t, std::string>;
 
-/// Changes from number `start` on: from which tick, serial number, of what.
+/// Changes from number `start` on, as far as they are kept: from which tick, serial number, of what.
 std::vector<Told> changes_from(Running& run, std::size_t start) {
   const auto name = [](UpdateOf what) {
     switch (what) {
@@ -109,7 +109,7 @@ std::vector<Told> changes_from(Running& run, std::size_t start) {
   std::vector<Told> told;
   AppliedUpdates& changes = run.changes();
   changes.read(start);
-  for (std::size_t i = start; i < changes.size(); ++i) {
+  for (std::size_t i = changes.first(); i < changes.size(); ++i) {
     told.emplace_back(changes[i].tick, changes[i].serial, name(changes[i].what));
   }
   return told;

@@ -51,6 +51,25 @@ TEST(Mailbox, NeverTearsAValueBetweenThreads) {
   EXPECT_EQ(seen, kLast);
 }
 
+TEST(AppliedUpdates, KeepsWhatWasNotReadWhateverIsAskedFor) {
+  constexpr std::size_t kMost = AppliedUpdates::kMost;
+  const auto serial = [](std::size_t i) { return static_cast<std::uint64_t>(i); };
+  AppliedUpdates updates;
+  for (std::size_t i = 0; i < kMost; ++i) updates.add({.serial = serial(i)});
+  updates.read(kMost);
+  for (std::size_t i = 0; i < 10; ++i) updates.add({.serial = serial(kMost + i)});
+  updates.read(0);  // those are gone
+  EXPECT_EQ(updates.first(), kMost);
+  for (std::size_t i = 10; i < kMost + 5; ++i) updates.add({.serial = serial(kMost + i)});
+  EXPECT_EQ(updates.lost(), 5U);
+  ASSERT_EQ(updates.size(), 2 * kMost);
+  for (std::size_t i = kMost; i < 2 * kMost; ++i) ASSERT_EQ(updates[i].serial, serial(i));
+  updates.read(10 * kMost);  // not those that are still to come
+  EXPECT_EQ(updates.first(), 2 * kMost);
+  for (std::size_t i = 0; i < kMost + 1; ++i) updates.add({});
+  EXPECT_EQ(updates.lost(), 6U);
+}
+
 TEST(ParameterUpdates, ActsFromTheTickThatIsNoted) {
   ebac::Setup setup;
   setup.hand.path[0] = Step{.target = 0.03};

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cstddef>
@@ -36,8 +37,12 @@ class AppliedUpdates {
 
   std::size_t size() const EBAC_RT { return count_.load(std::memory_order_acquire); }
   const AppliedUpdate& operator[](std::size_t i) const EBAC_RT { return all_[i % kMost]; }
-  /// All before number `i` were read: their places are used again.
-  void read(std::size_t i) EBAC_RT { read_.store(i, std::memory_order_release); }
+  /// All before number `i` were read: their places are used again. Reader.
+  void read(std::size_t i) EBAC_RT {
+    read_.store(std::clamp(i, first(), size()), std::memory_order_release);
+  }
+  /// Number of the first that was not read. Reader.
+  std::size_t first() const EBAC_RT { return read_.load(std::memory_order_relaxed); }
   /// Updates that were applied but not recorded, because nobody read those before.
   std::size_t lost() const EBAC_RT { return lost_.load(std::memory_order_relaxed); }
 
