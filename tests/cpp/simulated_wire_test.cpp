@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <limits>
 #include <string_view>
 #include <vector>
 
@@ -178,6 +179,19 @@ TEST(SimulatedWire, RefusesWhatNoBusIs) {
   for (int i = 0; i < 64; ++i) EXPECT_TRUE(wire.send(0, {.id = 1}, 0));
   EXPECT_FALSE(wire.send(0, {.id = 1}, 0));
   EXPECT_FALSE(wire.send(1, {.id = 0x800}, 0));
+}
+
+TEST(SimulatedWire, TimeEndsBeforeItsNumbersDo) {
+  SimulatedWire wire({});
+  SimulatedWire::Delivery came;
+  constexpr std::int64_t kMost = std::numeric_limits<std::int64_t>::max();
+  EXPECT_FALSE(wire.send(0, {.id = 1}, kMost - 1));
+  EXPECT_TRUE(wire.send(0, {.id = 1}, std::numeric_limits<std::int64_t>::min()));
+  ASSERT_TRUE(wire.next(kMost, came));
+  EXPECT_EQ(came.frame.stamp, exact_bits({.id = 1}) * 1000);
+  EXPECT_FALSE(wire.next(kMost - 1, came));
+  EXPECT_TRUE(wire.send(0, {.id = 1}, 0));
+  EXPECT_FALSE(wire.next(kMost, came));
 }
 
 }  // namespace

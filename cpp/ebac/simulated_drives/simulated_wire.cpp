@@ -36,7 +36,7 @@ std::int64_t SimulatedWire::time_of(std::int64_t bits) const EBAC_RT {
 
 bool SimulatedWire::send(std::size_t station, const Frame& frame, std::int64_t due) EBAC_RT {
   Station& from = station_[station];
-  if (from.off || !sendable(frame)) return false;
+  if (from.off || !sendable(frame) || due > kLatest) return false;
   Frame out = frame;
   out.stamp = due;
   return from.queue.push(out);
@@ -58,6 +58,7 @@ std::optional<std::int64_t> SimulatedWire::Station::ready() const EBAC_RT {
 }
 
 bool SimulatedWire::next(std::int64_t until, Delivery& delivery) EBAC_RT {
+  until = std::min(until, kLatest);
   for (;;) {
     if (!under_way_ && !start(until)) return false;
     if (ends_ > until) return false;

@@ -37,8 +37,8 @@ class SimulatedWire {
   /// Throws std::invalid_argument for options out of range.
   explicit SimulatedWire(const WireOptions& options);
 
-  /// Queues a frame that may go from `due` [ns] on; false where the station is off the bus, or its
-  /// queue of 64 frames is full.
+  /// Queues a frame that may go from `due` [ns] on; false where the station is off the bus, its
+  /// queue of 64 frames is full, or that is after the latest time there is, 146 years.
   bool send(std::size_t station, const Frame& frame, std::int64_t due) EBAC_RT;
   /// Goes on to the next frame that arrives, at `until` [ns] at the latest; false where none does.
   /// Frames due before `until` must have been sent.
@@ -59,6 +59,8 @@ class SimulatedWire {
   std::int64_t busy() const EBAC_RT { return busy_; }            // ns
 
  private:
+  static constexpr std::int64_t kLatest = std::int64_t{1} << 62;  // ns, with room for a frame
+
   struct Station {
     FrameQueue<64> queue;  // a stamp is the time from which the frame may go
     double error_rate = 0;
