@@ -255,7 +255,7 @@ def test_a_rehearsal_refuses_a_bus_load_that_hardware_refuses(config: Path) -> N
     """Its own bus, inside this process, has no bit rate."""
     known = Configuration.load(config)
     slow = known.replace(drives=replace(known.drives, bitrate=100_000))
-    with pytest.raises(ProfileError, match=r"bus load 516 % of 100 kbit/s, worst case: refused"):
+    with pytest.raises(ProfileError, match=r"bus load 523 % of 100 kbit/s, worst case: refused"):
         OpenDevice(slow, simulate=True)
 
 
