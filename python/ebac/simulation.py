@@ -243,7 +243,7 @@ def on_bus(scenario: Scenario, through: str, bus: _core.TimedBus | None = None) 
     Raises
     ------
     ValueError
-        When there is no such bus, or it cannot carry the process data of the scenario.
+        When there is no such bus, or it cannot carry the frames of loop and drives.
     """
     if through != "can":
         raise ValueError(f"through = {through!r}: must be 'can' or None")

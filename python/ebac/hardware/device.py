@@ -79,7 +79,7 @@ class OpenDevice:
     Warns
     -----
     UserWarning
-        When the process data take more than 70 % of the bus, or the web page of the force sensor cannot be read.
+        When loop and drives take more than 70 % of the bus, or the web page of the force sensor cannot be read.
 
     Raises
     ------
@@ -88,7 +88,7 @@ class OpenDevice:
     SensorError
         When the force sensor scales its counts differently from the configuration.
     ProfileError
-        When the process data take more than 90 % of the bus, or a drive would hold its torque without the loop.
+        When loop and drives take more than 90 % of the bus, or a drive would hold its torque without the loop.
     DriveError
         When a drive cannot be reached, is in fault, or its objects differ from its profile.
     """
