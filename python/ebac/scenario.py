@@ -31,6 +31,7 @@ from ebac._util.arguments import (
     require_path,
     shown,
 )
+from ebac._util.atomic_file import write_text
 from ebac._util.copying import refuse_uncopyable
 from ebac._util.misplaced import Misplaced, misplaced
 from ebac._util.plural import plural
@@ -250,9 +251,15 @@ class Scenario:
             raise misplaced((), parts, error) from None
 
     def save(self, path: str | Path) -> None:
-        """Write the scenario to a TOML file. The file of a mesh below its folder is named from there."""
+        """Write the scenario to a TOML file. The file of a mesh below its folder is named from there.
+
+        Raises
+        ------
+        OSError
+            When the file cannot be written; one of that name stays as it is.
+        """
         require_path(path, "Scenario.save")
-        Path(path).write_text(self.to_toml(folder=Path(path).parent), encoding="utf-8")
+        write_text(path, self.to_toml(folder=Path(path).parent))
 
     @classmethod
     def load(cls, path: str | Path) -> Self:

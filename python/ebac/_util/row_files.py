@@ -9,6 +9,8 @@ from math import isfinite
 from pathlib import Path
 from typing import Any
 
+from ebac._util.atomic_file import draft, write_text
+
 
 def document(command: str, rows: Sequence[Mapping[str, Any]], **more: Any) -> str:
     """Return the JSON of a command: its name, the version, `more` and the list `rows`.
@@ -37,12 +39,12 @@ def save(path: str | Path, document: str, rows: Sequence[Mapping[str, Any]]) -> 
     if extension(file, (".json", ".csv")) == ".csv":
         csv_table(file, rows)
     else:
-        file.write_text(document + "\n", encoding="utf-8")
+        write_text(file, document + "\n")
 
 
 def csv_table(path: Path, rows: Sequence[Mapping[str, Any]], headings: Sequence[str] = ()) -> None:
     """Write rows of the same names as CSV; `headings` are the names, needed where there may be no row."""
-    with path.open("w", encoding="utf-8", newline="") as file:
+    with draft(path) as name, name.open("w", encoding="utf-8", newline="") as file:
         writer = csv.DictWriter(file, list(headings or rows[0]), lineterminator="\n")
         writer.writeheader()
         writer.writerows(rows)

@@ -9,6 +9,7 @@ from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING
 
 from ebac._util.arguments import unknown_name
+from ebac._util.atomic_file import draft
 from ebac.datasets import logs, others
 
 if TYPE_CHECKING:
@@ -82,12 +83,12 @@ def write(name: str, folder: str | Path = ".", *, force: bool = False) -> Path:
     known = DATASETS[name]
     target = Path(folder) / known.file
     target.parent.mkdir(parents=True, exist_ok=True)
-    with TemporaryDirectory(prefix=".demo-", dir=target.parent) as draft:
-        made = Path(draft) / known.file
+    with draft(target) as new, TemporaryDirectory(prefix=".demo-", dir=target.parent) as beside:
+        made = Path(beside) / known.file
         known._write(made, known.note)
         if target.exists() and not force and target.read_bytes() != made.read_bytes():
             raise FileExistsError(17, "a file of that name exists", str(target))
-        made.replace(target)
+        new.write_bytes(made.read_bytes())
     return target
 
 

@@ -13,6 +13,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Self
 
+from ebac._util.atomic_file import write_text
 from ebac._util.wrong_calls import plain_constructor
 from ebac.drives.drive import Drive
 from ebac.drives.errors import DriveError
@@ -146,12 +147,7 @@ class Backups:
 
     def _write(self, path: Path, text: str) -> None:
         self.folder.mkdir(parents=True, exist_ok=True)
-        draft = path.with_suffix(".draft")
-        with draft.open("w", encoding="utf-8") as file:
-            file.write(text)
-            file.flush()
-            os.fsync(file.fileno())
-        draft.replace(path)  # atomic
+        write_text(path, text)
         folder = os.open(self.folder, os.O_RDONLY)
         try:
             os.fsync(folder)

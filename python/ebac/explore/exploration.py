@@ -9,6 +9,7 @@ from html import escape
 from pathlib import Path
 
 from ebac._util.arguments import require, require_path
+from ebac._util.atomic_file import write_text
 from ebac.explore.panels import Panel, chosen, usual
 from ebac.trace import Trace
 
@@ -50,7 +51,7 @@ class Exploration:
     def save(self, path: str | Path) -> None:
         """Write the page; any browser opens it, without network and without Python."""
         require_path(path, "Exploration.save")
-        Path(path).write_text(self.html, encoding="utf-8")
+        write_text(path, self.html)
 
     def _repr_html_(self) -> str:
         """Return a frame around the page, so that no style of the notebook gets in."""

@@ -85,7 +85,8 @@ def events_of(run: Gastroscopy) -> list[Event]:
 
 def write_log(run: Gastroscopy, path: Path) -> None:
     """Write an MCAP file; it appears when it is whole, and replaces one of that name."""
-    from ebac.logs.files import CHUNK_ROWS, about_trace, draft
+    from ebac._util.atomic_file import draft
+    from ebac.logs.files import CHUNK_ROWS, about_trace
     from ebac.logs.layout import Layout
     from ebac.logs.writer import LogWriter
 

@@ -7,6 +7,8 @@ import tomllib
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 
+from ebac._util.atomic_file import write_text
+
 _ANY_TABLE = re.compile(r"^\s*\[")
 
 
@@ -55,10 +57,7 @@ def rewrite(path: Path, change: Callable[[str], str]) -> None:
 
     Raises what `change` does, and OSError.
     """
-    file = path.resolve()
-    draft = file.with_name(f"{file.name}.draft")
-    draft.write_text(change(file.read_bytes().decode("utf-8")), encoding="utf-8", newline="")
-    draft.replace(file)
+    write_text(path, change(path.read_bytes().decode("utf-8")))
 
 
 def _holds(text: str, name: str, values: Mapping[str, list[int]]) -> bool:

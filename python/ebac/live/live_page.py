@@ -8,6 +8,7 @@ from pathlib import Path
 
 from ebac import presets
 from ebac._core import Hand
+from ebac._util.atomic_file import write_text
 from ebac._util.law_colours import COLOURS
 from ebac.live.wasm_module import WEB, module, script
 
@@ -57,6 +58,8 @@ def page(
     ------
     FileNotFoundError
         When the WebAssembly module was not built.
+    OSError
+        When the file cannot be written; one of that name stays as it is.
     """
     hands = [
         {"name": name, "about": about, "settings": _settings(presets.HANDS[name].hand)}
@@ -73,7 +76,7 @@ def page(
     for mark, text in parts.items():
         html = html.replace(mark, text, 1)
     if path is not None:
-        Path(path).write_text(html, encoding="utf-8")
+        write_text(path, html)
     return html
 
 

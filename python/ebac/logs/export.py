@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from io import BytesIO
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -88,7 +89,10 @@ def to_hdf5(trace: Trace, path: Path, progress: Progress) -> None:
     needs("h5py", "log")
     import h5py
 
-    with h5py.File(path, "w") as file:
+    image = (
+        BytesIO()
+    )  # on a full disk HDF5 itself would crash later, when what it could not close is collected
+    with h5py.File(image, "w") as file:
         file.attrs.update(facts(trace))
         for i, name in enumerate(trace):
             values = trace[name]
@@ -97,6 +101,7 @@ def to_hdf5(trace: Trace, path: Path, progress: Progress) -> None:
             data.attrs["unit"] = trace.columns[name].unit
             data.attrs["meaning"] = trace.columns[name].meaning
             progress((i + 1) * len(trace) // len(list(trace)), len(trace))
+    path.write_bytes(image.getbuffer())
 
 
 def needs(module: str, extra: str) -> None:

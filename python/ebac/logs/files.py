@@ -2,16 +2,13 @@
 
 from __future__ import annotations
 
-import errno
-import os
 import warnings
-from collections.abc import Callable, Iterator, Mapping
-from contextlib import contextmanager, suppress
+from collections.abc import Callable, Mapping
 from pathlib import Path
-from threading import get_ident
 from typing import TYPE_CHECKING, Any
 
 from ebac._util.arguments import require_file, require_path
+from ebac._util.atomic_file import draft
 from ebac._util.plural import plural
 from ebac._util.progress import Progress
 from ebac.logs.about import SIMULATED_DRIVES, SIMULATED_FILE, About
@@ -69,7 +66,7 @@ def save(
         When the file cannot be written.
     """
     from ebac.logs import export, ros2
-    from ebac.trace.files import write_npz
+    from ebac.trace.files import write_csv, write_npz
 
     require_path(path, "Trace.save")
     path = Path(path)
@@ -78,7 +75,7 @@ def save(
     writers: dict[str, Callable[[Trace, Path, Progress], Any]] = {
         ".mcap": ros2.write_trace if profile == "ros2" else write_mcap,
         ".npz": lambda t, p, _: write_npz(t, p),
-        ".csv": lambda t, p, progress: t.to_csv(p, progress=progress),
+        ".csv": write_csv,
         ".parquet": export.to_parquet,
         ".mat": export.to_mat,
         ".h5": export.to_hdf5,
@@ -87,21 +84,6 @@ def save(
         writers[known](trace, name, progress or (lambda done, total: None))
     if known != ".csv":  # which holds no scenario
         warn_without_text(trace.scenario, path, stacklevel=3)
-
-
-@contextmanager
-def draft(path: Path) -> Iterator[Path]:
-    """Give the name of a file beside `path` that takes its place once it is whole, and is removed otherwise."""
-    name = path.with_name(f".{path.name}.{os.getpid()}.{get_ident()}.draft")
-    try:
-        yield name
-        name.replace(path)
-    except OSError as error:  # names the file asked for, not the draft beside it
-        number, why = error.errno or errno.EIO, error.strerror or str(error)
-        raise OSError(number, why, str(path)) from None
-    finally:
-        with suppress(OSError):  # a folder that is none has no draft either
-            name.unlink(missing_ok=True)
 
 
 def check_profile(path: Path, profile: str) -> None:

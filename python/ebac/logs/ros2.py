@@ -9,11 +9,12 @@ from typing import TYPE_CHECKING, Any, BinaryIO
 
 from numpy.typing import NDArray
 
+from ebac._util.atomic_file import draft
 from ebac._util.progress import Progress
 from ebac.logs.about import About
 from ebac.logs.columns import Columns
 from ebac.logs.events import Event
-from ebac.logs.files import CHUNK_ROWS, FORMATS, about_trace, draft, extension
+from ebac.logs.files import CHUNK_ROWS, FORMATS, about_trace, extension
 from ebac.logs.layout import Layout
 from ebac.logs.log import Log
 from ebac.logs.reader import read, read_bytes

@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ebac._core import Hand, Step, Wall
 from ebac._util.arguments import require, require_file, require_path, unknown, whole
+from ebac._util.atomic_file import draft
 from ebac._util.need import need
 from ebac._util.wrong_calls import plain_constructor
 from ebac.operators.columns import (
@@ -207,10 +208,16 @@ class Operators:
             raise ValueError(f"{path}: {error}") from None
 
     def to_csv(self, path: str | Path) -> None:
-        """Write CSV that `from_csv` reads; numbers keep every digit."""
+        """Write CSV that `from_csv` reads; numbers keep every digit.
+
+        Raises
+        ------
+        OSError
+            When the file cannot be written; one of that name stays as it is.
+        """
         require_path(path, "Operators.to_csv")
         columns = self.columns()
-        with Path(path).open("w", encoding="utf-8", newline="") as file:
+        with draft(path) as name, name.open("w", encoding="utf-8", newline="") as file:
             writer = csv.writer(file, lineterminator="\n")
             writer.writerow(columns)
             writer.writerows(zip(*(values.tolist() for values in columns.values()), strict=True))

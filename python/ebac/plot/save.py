@@ -20,6 +20,7 @@ from matplotlib.spines import Spine
 from matplotlib.text import Text
 
 from ebac._util.arguments import require
+from ebac._util.atomic_file import draft
 from ebac._util.figure_formats import FORMATS
 from ebac.plot.legends import LETTERS, fit_legends
 from ebac.plot.style import DPI
@@ -79,6 +80,8 @@ def save(
     ------
     ValueError
         For an unknown format or width.
+    OSError
+        When the file cannot be written; one of that name stays as it is.
     """
     require(figure, Figure, "ebac.plot.save", "a Figure")
     file = Path(path)
@@ -95,11 +98,11 @@ def save(
     if narrow is not None and inches is not None and inches < least:
         figure = narrow()
     dpi = DPI if inches is None else PRINT_DPI
-    with fitted(figure, inches, title=title):
+    with fitted(figure, inches, title=title), draft(file) as name:
         if file.suffix == ".png":
-            write_png(figure, file, dpi)
+            write_png(figure, name, dpi)
         else:
-            Figure.savefig(figure, file, format=file.suffix[1:], dpi=dpi)
+            Figure.savefig(figure, name, format=file.suffix[1:], dpi=dpi)
     return file
 
 

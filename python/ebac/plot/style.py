@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
+from contextlib import ExitStack
 from io import BytesIO
 from itertools import cycle
+from os import PathLike
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -17,6 +20,7 @@ from numpy.typing import NDArray
 
 from ebac._core import Wall
 from ebac._util.arrays import Values
+from ebac._util.atomic_file import draft
 from ebac._util.law_colours import COLOURS
 from ebac.metrics import ideal_rest
 from ebac.plot.legends import figure_legend, legend
@@ -80,10 +84,20 @@ class Picture(Figure):
     narrow: Callable[[], Picture] | None = None
 
     def savefig(self, fname: Any, **kwargs: Any) -> None:
-        """Save as matplotlib does, with legends and titles broken into lines that fit."""
+        """Save as matplotlib does, with legends and titles broken into lines that fit; a file appears when it is whole.
+
+        Raises
+        ------
+        OSError
+            When the file cannot be written; one of that name stays as it is.
+        """
         from ebac.plot.save import fitted
 
-        with fitted(self):
+        with fitted(self), ExitStack() as stack:
+            ending = Path(fname).suffix if isinstance(fname, (str, PathLike)) else ""
+            if ending:  # matplotlib gives one to a name without
+                kwargs = {"format": ending[1:], **kwargs}
+                fname = stack.enter_context(draft(fname))
             super().savefig(fname, **kwargs)
 
     def align_ylabels(self, axs: Any = None) -> None:

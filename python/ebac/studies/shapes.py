@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import tempfile
 from collections.abc import Callable, Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
@@ -12,6 +11,7 @@ import numpy as np
 
 from ebac import presets
 from ebac._core import Device, Hand, Step, Timing
+from ebac._util.atomic_file import write_text
 from ebac.laws import AnyLaw, law_name
 from ebac.metrics import allowed_deviation, contact
 from ebac.metrics.world_rest import world_rest
@@ -208,9 +208,7 @@ def ball_file() -> Path:
     if not file.exists():
         ball = needed("trimesh", "trimesh").creation.icosphere(subdivisions=3)
         file.parent.mkdir(parents=True, exist_ok=True)
-        with tempfile.NamedTemporaryFile(dir=file.parent, suffix=".off", delete=False) as part:
-            part.write(ball.export(file_type="off").encode())
-        Path(part.name).replace(file)
+        write_text(file, ball.export(file_type="off"))
     return file
 
 

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import json
-import os
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from tempfile import NamedTemporaryFile
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from ebac._util.arguments import require, whole
+from ebac._util.atomic_file import draft, write_text
 from ebac._util.file_names import file_name
 from ebac.metrics import contact
 from ebac.testing.compare import Comparison, check_columns, compare
@@ -136,11 +135,12 @@ class TraceRegression:
         golden_file = where.with_name(where.name + ".npz")
         metrics_file = where.with_name(where.name + ".json")
         missing = [f for f in (golden_file, metrics_file)[: 1 + metrics] if not f.exists()]
+        golden_file.parent.mkdir(parents=True, exist_ok=True)
         if self.update or golden_file in missing:
-            _whole(golden_file, lambda path: write_npz(found, path))
+            with draft(golden_file) as new:
+                write_npz(found, new)
         if came_to is not None and (self.update or metrics_file in missing):
-            text = json.dumps(came_to, indent=2, allow_nan=False) + "\n"
-            _whole(metrics_file, lambda path: path.write_text(text, encoding="utf-8"))
+            write_text(metrics_file, json.dumps(came_to, indent=2, allow_nan=False) + "\n")
         if missing and not self.update:
             what = "golden trace" if golden_file in missing else "file of golden metrics"
             also = "".join(f" and {file.name}" for file in missing[1:])
@@ -227,25 +227,6 @@ def _part(trace: Trace, columns: Sequence[str], every: int) -> Trace:
         origin=trace.origin,
         changed=trace.changed,
     )
-
-
-def _whole(path: Path, write: Callable[[Path], Any]) -> None:
-    """Write a file that other processes see whole or not at all."""
-    path.parent.mkdir(parents=True, exist_ok=True)
-    with NamedTemporaryFile(dir=path.parent, prefix=".draft-", delete=False) as draft:
-        new = Path(draft.name)
-    try:
-        write(new)
-        new.chmod(0o666 & ~_umask())
-        new.replace(path)
-    finally:
-        new.unlink(missing_ok=True)
-
-
-def _umask() -> int:
-    mask = os.umask(0)
-    os.umask(mask)
-    return mask
 
 
 def _remedy() -> str:

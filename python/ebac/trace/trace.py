@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ebac import _core
 from ebac._util.arguments import require_path, unknown_name, whole
+from ebac._util.atomic_file import draft
 from ebac._util.need import need
 from ebac._util.plural import plural
 from ebac.scenario import Scenario
@@ -290,22 +291,38 @@ class Trace:
     def to_csv(
         self, path: str | Path, *, progress: Callable[[int, int], None] | None = None
     ) -> None:
-        """Write CSV with the unit in each heading, `x [m]`; numbers keep every digit."""
+        """Write CSV with the unit in each heading, `x [m]`; numbers keep every digit.
+
+        The file appears when it is whole, and replaces one of that name.
+
+        Raises
+        ------
+        OSError
+            When the file cannot be written; one of that name stays as it is.
+        """
         from ebac.trace.files import write_csv
 
         require_path(path, "Trace.to_csv")
-        write_csv(self, path, progress)
+        with draft(path) as name:
+            write_csv(self, name, progress)
 
     def to_npz(self, path: str | Path) -> None:
         """Write a compressed NumPy archive: the columns, and units, scenario and law under `about`.
 
-        A scenario with a hand or world of one's own is left out, with a warning.
+        The file appears when it is whole, and replaces one of that name. A scenario with a hand or world of one's own
+        is left out, with a warning.
+
+        Raises
+        ------
+        OSError
+            When the file cannot be written; one of that name stays as it is.
         """
         from ebac.scenario_text import warn_without_text
         from ebac.trace.files import write_npz
 
         require_path(path, "Trace.to_npz")
-        write_npz(self, path)
+        with draft(path) as name:
+            write_npz(self, name)
         warn_without_text(self.scenario, path, stacklevel=2)
 
     @classmethod

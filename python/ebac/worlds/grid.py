@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import hashlib
 import os
-import tempfile
 from collections.abc import Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
@@ -18,6 +17,7 @@ from numpy.typing import NDArray
 
 from ebac import _core
 from ebac._util.arrays import Values
+from ebac._util.atomic_file import draft
 from ebac._util.progress import Progress
 
 Ints = NDArray[np.int64]
@@ -238,15 +238,7 @@ def _keep(grid: Grid, path: Path) -> None:
     """Write a grid; a folder that cannot be written to costs the cache, not the grid."""
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
-        with tempfile.NamedTemporaryFile(dir=path.parent, suffix=".part", delete=False) as file:
-            part = Path(file.name)
-            try:
-                np.savez(file, **{one.name: getattr(grid, one.name) for one in fields(grid)})
-                file.flush()
-                os.fsync(file.fileno())  # or a crash leaves the name, and nothing in the file
-                part.replace(path)
-            except BaseException:
-                part.unlink(missing_ok=True)
-                raise
+        with draft(path) as name, name.open("wb") as file:
+            np.savez(file, **{one.name: getattr(grid, one.name) for one in fields(grid)})
     except OSError:
         return

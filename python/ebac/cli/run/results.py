@@ -8,6 +8,7 @@ from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Self
 
+from ebac._util.atomic_file import write_text
 from ebac.cli import output
 from ebac.cli.files import FigureOptions
 from ebac.cli.machine.grants import show_refused
@@ -207,7 +208,7 @@ def write(result: Result, stem: Path | None, style: FigureOptions) -> list[str]:
     if len(result.trace) >= 2:
         events = read(result.report.log).events if result.changed and result.report.log else []
         names += style.save(plot_trace(result.trace, events=events), stem.parent, stem.name)
-    stem.with_suffix(".json").write_text(result.document() + "\n", encoding="utf-8")
+    write_text(stem.with_suffix(".json"), result.document() + "\n")
     return [*names, f"{stem.name}.json"]
 
 

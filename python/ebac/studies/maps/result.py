@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from ebac._util.arguments import require_path
 from ebac._util.arrays import Values
+from ebac._util.atomic_file import draft
 from ebac.scenario import Scenario
 from ebac.studies.maps.axes import AXES, MapAxis
 from ebac.studies.sweeps import SweepResult
@@ -110,11 +111,19 @@ class StabilityMap:
         }
 
     def to_npz(self, path: str | Path) -> None:
-        """Write axes and all numbers as arrays."""
+        """Write axes and all numbers as arrays; `.npz` is added to a name that does not end in it.
+
+        Raises
+        ------
+        OSError
+            When the file cannot be written; one of that name stays as it is.
+        """
         require_path(path, "StabilityMap.to_npz")
         arrays: dict[str, Any] = {self.x: self.xs, self.y: self.ys}
         arrays |= {name: self[name] for name in self.result if name != "law"}
-        np.savez_compressed(path, **arrays)
+        whole = path if str(path).endswith(".npz") else f"{path}.npz"
+        with draft(whole) as name, name.open("wb") as file:
+            np.savez_compressed(file, **arrays)
 
     def _repr_html_(self) -> str:
         """Return the figure and the scores, for a notebook."""

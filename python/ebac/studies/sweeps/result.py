@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ebac._util.arguments import named, require_path
+from ebac._util.atomic_file import draft
 from ebac._util.need import need
 from ebac._util.plural import plural
 
@@ -90,23 +91,39 @@ class SweepResult:
         return pd.DataFrame(self.columns)
 
     def to_csv(self, path: str | Path) -> None:
-        """Write CSV; the unit is in each name, numbers keep every digit, NaN is an empty cell."""
+        """Write CSV; the unit is in each name, numbers keep every digit, NaN is an empty cell.
+
+        Raises
+        ------
+        OSError
+            When the file cannot be written; one of that name stays as it is.
+        """
         require_path(path, "SweepResult.to_csv")
-        with Path(path).open("w", encoding="utf-8", newline="") as file:
+        with draft(path) as name, name.open("w", encoding="utf-8", newline="") as file:
             writer = csv.writer(file, lineterminator="\n")
             writer.writerow(self.columns)
             for row in zip(*(values.tolist() for values in self.columns.values()), strict=True):
                 writer.writerow("" if cell != cell else cell for cell in row)
 
     def to_parquet(self, path: str | Path) -> None:
-        """Write Parquet; needs `pip install 'ebac[sweep]'`."""
+        """Write Parquet, with a checksum of each page; needs `pip install 'ebac[sweep]'`.
+
+        Raises
+        ------
+        ImportError
+            Without pyarrow.
+        OSError
+            When the file cannot be written; one of that name stays as it is.
+        """
         require_path(path, "SweepResult.to_parquet")
         try:
             import pyarrow
             import pyarrow.parquet
         except ImportError as error:
             raise ImportError("Parquet needs pyarrow: pip install 'ebac[sweep]'") from error
-        pyarrow.parquet.write_table(pyarrow.table(dict(self.columns)), path)
+        table = pyarrow.table(dict(self.columns))
+        with draft(path) as name:
+            pyarrow.parquet.write_table(table, name, write_page_checksum=True)
 
     def rows(self) -> list[dict[str, Any]]:
         """Return one row per run: its law, scenario and swept parameters, and what its contact came to."""

@@ -13,6 +13,7 @@ from typing import Any, Self
 import numpy as np
 
 from ebac._core import RunLimits
+from ebac._util.atomic_file import draft
 from ebac._util.atomic_folder import NO_LOCKS, locked
 from ebac._util.code_print import ADDRESS, code_print
 from ebac._util.foreign_worlds import foreign
@@ -148,7 +149,5 @@ class Store:
         return self.folder / f"bundle-{bundle:06d}.npz"
 
     def _write(self, name: str, fill: Any) -> None:
-        draft = self.folder / f".{name}.draft"
-        with draft.open("wb") as file:
+        with draft(self.folder / name) as new, new.open("wb") as file:
             fill(file)
-        draft.replace(self.folder / name)  # atomic: a reader sees all of it or nothing
