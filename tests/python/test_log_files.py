@@ -127,6 +127,91 @@ def test_a_file_appears_whole_or_not_at_all(
     assert list(tmp_path.iterdir()) == [path]
 
 
+@pytest.mark.parametrize("kind", [".npz", ".parquet", ".h5"])
+@given(place=st.floats(0, 1, exclude_max=True), bit=st.integers(0, 7))
+@settings(suppress_health_check=[HealthCheck.function_scoped_fixture])
+def test_a_flipped_bit_is_found_or_changes_nothing(
+    kind: str, place: float, bit: int, run: Any, tmp_path: Path
+) -> None:
+    if library := OF_AN_EXTRA.get(kind):
+        pytest.importorskip(library)
+    trace = run("ebac", seconds=0.02)
+    path, saved = tmp_path / f"run{kind}", tmp_path / f"saved{kind}"
+    if not saved.exists():
+        trace.save(saved)
+    flipped = bytearray(saved.read_bytes())
+    flipped[int(place * len(flipped))] ^= 1 << bit
+    path.write_bytes(flipped)
+    try:
+        back = ebac.load(path)
+    except ValueError as error:
+        assert str(path) in str(error)  # noqa: PT017
+        return
+    assert (set(back), back.law, back.scenario) == (set(trace), trace.law, trace.scenario)
+    for name in trace:
+        assert back[name].tobytes() == trace[name].tobytes(), name
+        unit, meaning = trace.columns[name].unit, trace.columns[name].meaning
+        assert back.columns[name].unit in (unit, "1")  # Parquet may lose the texts of a column
+        assert back.columns[name].meaning in (meaning, "")
+
+
+DAMAGED = r"run\.\w+: column x is damaged \(.+\); use a copy of it, or write it again"
+CHANGED = "damaged, or changed; use a copy .* If it is changed on purpose, delete its crc32"
+
+
+def flip(path: Path, place: int) -> None:
+    damaged = bytearray(path.read_bytes())
+    damaged[place] ^= 4
+    path.write_bytes(damaged)
+
+
+def test_a_damaged_column_of_parquet_is_named_and_what_was_changed_is_read_without_checksum(
+    run: Any, tmp_path: Path
+) -> None:
+    parquet = pytest.importorskip("pyarrow.parquet")
+    path, trace = tmp_path / "run.parquet", run("ebac", seconds=0.02)
+    trace.save(path)
+    table = parquet.read_table(path)
+    chunk = parquet.read_metadata(path).row_group(0).column(table.column_names.index("x"))
+    first = chunk.dictionary_page_offset or chunk.data_page_offset
+    flip(path, first + chunk.total_compressed_size // 2)
+    with pytest.raises(ValueError, match=DAMAGED):
+        ebac.load(path)
+    texts = {**table.schema.metadata, b"law": b"mine"}
+    parquet.write_table(table.replace_schema_metadata(texts), path)
+    with pytest.raises(ValueError, match=f"law or scenario is {CHANGED}"):
+        ebac.load(path)
+    del texts[b"crc32"]
+    parquet.write_table(
+        table.replace_schema_metadata(texts), path
+    )  # as older ones, no page has one
+    assert ebac.load(path).law == "mine"
+    parquet.write_table(table.slice(5, 10).select(["t", "x"]), path)
+    assert (ebac.load(path)["x"] == trace["x"][5:15]).all()
+
+
+def test_a_damaged_column_of_hdf5_is_named_and_what_was_changed_is_read_without_checksum(
+    run: Any, tmp_path: Path
+) -> None:
+    h5py = pytest.importorskip("h5py")
+    path = tmp_path / "run.h5"
+    run("ebac", seconds=0.02).save(path)
+    with h5py.File(path) as file:
+        assert all(file[name].fletcher32 for name in file)
+        chunk = file["x"].id.get_chunk_info(0)
+    flip(path, chunk.byte_offset + chunk.size // 2)
+    with pytest.raises(ValueError, match=DAMAGED):
+        ebac.load(path)
+    flip(path, chunk.byte_offset + chunk.size // 2)
+    with h5py.File(path, "a") as file:
+        file["x"].attrs["unit"] = "mm"
+    with pytest.raises(ValueError, match=f"the name, unit or meaning of column x is {CHANGED}"):
+        ebac.load(path)
+    with h5py.File(path, "a") as file:
+        del file["x"].attrs["crc32"]
+    assert ebac.load(path).columns["x"].unit == "mm"
+
+
 def test_an_unknown_extension_is_refused(tmp_path: Path) -> None:
     trace = ebac.simulate(ebac.Scenario(seconds=0.1), "tca")
     with pytest.raises(ValueError, match=r"run\.xlsx: must end in \.mcap, \.npz, \.csv, \.parquet"):

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import json
 from io import BytesIO
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
+from zlib import crc32
 
 import numpy as np
 
@@ -17,6 +19,8 @@ if TYPE_CHECKING:
 
 #: Names of MATLAB are at most this long.
 MATLAB_NAME = 63
+#: What the checksum of the texts beside numbers is called.
+CHECKSUM = "crc32"
 
 
 def facts(trace: Trace) -> dict[str, str]:
@@ -34,8 +38,17 @@ def facts(trace: Trace) -> dict[str, str]:
     }
 
 
+def checked(texts: dict[str, str], name: str = "") -> dict[str, str]:
+    """Return texts that stand beside numbers, of a column with its name, with their checksum.
+
+    Both formats have checksums of the numbers, and none of their texts.
+    """
+    code = crc32(json.dumps([name, *sorted(texts.items())]).encode())
+    return {**texts, CHECKSUM: f"{code:08x}"}
+
+
 def to_parquet(trace: Trace, path: Path, progress: Progress) -> None:
-    """Write Parquet: a column per axis, `x_0`, `x_1`; unit and meaning in the metadata of each."""
+    """Write Parquet: a column per axis, `x_0`, `x_1`; unit and meaning in the metadata of each; with checksums."""
     needs("pyarrow", "sweep")
     import pyarrow as pa
     import pyarrow.parquet
@@ -45,13 +58,14 @@ def to_parquet(trace: Trace, path: Path, progress: Progress) -> None:
         pa.field(
             name,
             pa.from_numpy_dtype(values.dtype),
-            metadata={"unit": info.unit, "meaning": info.meaning},
+            metadata=checked({"unit": info.unit, "meaning": info.meaning}, name),
         )
         for name, info, values in columns
     ]
-    schema = pa.schema(fields, metadata=facts(trace))
+    schema = pa.schema(fields, metadata=checked(facts(trace)))
     arrays = [pa.array(np.ascontiguousarray(values)) for _, _, values in columns]
-    pyarrow.parquet.write_table(pa.Table.from_arrays(arrays, schema=schema), path)
+    table = pa.Table.from_arrays(arrays, schema=schema)
+    pyarrow.parquet.write_table(table, path, write_page_checksum=True)
     progress(len(trace), len(trace))
 
 
@@ -85,21 +99,29 @@ def to_mat(trace: Trace, path: Path, progress: Progress) -> None:
 
 
 def to_hdf5(trace: Trace, path: Path, progress: Progress) -> None:
-    """Write HDF5: a data set per column, attributes `unit` and `meaning`; law, scenario and versions on the file."""
+    """Write HDF5: a data set per column, attributes `unit` and `meaning`; law, scenario and versions on the file.
+
+    All of it has checksums: each chunk by the filter fletcher32, the structure by the format of HDF5 1.8.
+    """
     needs("h5py", "log")
     import h5py
 
     image = (
         BytesIO()
     )  # on a full disk HDF5 itself would crash later, when what it could not close is collected
-    with h5py.File(image, "w") as file:
-        file.attrs.update(facts(trace))
+    with h5py.File(image, "w", libver=("v108", "v108")) as file:
+        file.attrs.update(checked(facts(trace)))
         for i, name in enumerate(trace):
             values = trace[name]
-            packed = {"compression": "gzip", "compression_opts": 1, "shuffle": True}
+            packed = {
+                "compression": "gzip",
+                "compression_opts": 1,
+                "shuffle": True,
+                "fletcher32": True,
+            }
             data = file.create_dataset(name, data=values, **(packed if len(values) else {}))
-            data.attrs["unit"] = trace.columns[name].unit
-            data.attrs["meaning"] = trace.columns[name].meaning
+            info = trace.columns[name]
+            data.attrs.update(checked({"unit": info.unit, "meaning": info.meaning}, name))
             progress((i + 1) * len(trace) // len(list(trace)), len(trace))
     path.write_bytes(image.getbuffer())
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -11,10 +11,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ebac.logs.csv_file import gathered
-from ebac.logs.export import needs
+from ebac.logs.export import CHECKSUM, checked, needs
 from ebac.scenario import scenario_of_log
 from ebac.trace import Trace
 from ebac.trace.columns import ColumnInfo
+
+#: What to do about a damaged file.
+REMEDY = "use a copy of it, or write it again"
 
 
 def from_parquet(path: Path) -> Trace:
@@ -23,17 +26,22 @@ def from_parquet(path: Path) -> Trace:
     import pyarrow
     import pyarrow.parquet
 
-    with _whole(path, "a Parquet file"):
-        table = pyarrow.parquet.read_table(path)
-        about = _texts(table.schema.metadata or {})
-        flat = {field.name: table[field.name].to_numpy() for field in table.schema}
-        infos = {field.name: _texts(field.metadata or {}) for field in table.schema}
-    axes = _axes(path, about)
+    with ExitStack() as stack:
+        with _whole(path, "not a Parquet file, or damaged"):
+            file = stack.enter_context(
+                pyarrow.parquet.ParquetFile(path, page_checksum_verification=True)
+            )
+            schema = file.schema_arrow
+            about = _texts(schema.metadata or {})
+            infos = {field.name: _texts(field.metadata or {}) for field in schema}
+        axes, flat = _axes(path, about), {}
+        for name in infos:
+            with _whole(path, f"column {name} is damaged"):
+                flat[name] = file.read([name])[name].to_numpy()
+                if len(flat[name]) != file.metadata.num_rows:  # the head of a page has no checksum
+                    raise ValueError(f"{len(flat[name])} of {file.metadata.num_rows} rows")
     data, first = gathered(flat, list(flat), axes)
-    columns = {
-        name: _info(name, infos[part].get("unit"), infos[part].get("meaning"))
-        for name, part in first.items()
-    }
+    columns = {name: _info(path, name, infos[part], part) for name, part in first.items()}
     return _trace(path, data, columns, about)
 
 
@@ -42,7 +50,7 @@ def from_mat(path: Path) -> Trace:
     needs("scipy", "log")
     from scipy.io import loadmat
 
-    with path.open("rb") as file, _whole(path, "a MATLAB file"):
+    with path.open("rb") as file, _whole(path, "not a MATLAB file, or damaged"):
         found = loadmat(file, simplify_cells=True)
     about, units, meanings, names = (
         _words(found, part) for part in ("about", "units", "meanings", "names")
@@ -51,7 +59,8 @@ def from_mat(path: Path) -> Trace:
     for short in units:
         name = names.get(short) or short
         data[name] = _column(np.asarray(found[short]), np.size(found["t"]))
-        columns[name] = _info(name, units[short], meanings.get(short))
+        texts = {"unit": units[short], "meaning": meanings.get(short, "")}
+        columns[name] = _info(path, name, texts, name)
     return _trace(path, data, columns, about)
 
 
@@ -70,23 +79,37 @@ def from_hdf5(path: Path) -> Trace:
 
     with path.open("rb"):  # h5py names neither a missing file nor a folder
         pass
-    with _whole(path, "an HDF5 file"), h5py.File(path, "r") as file:
-        about = {name: str(text) for name, text in file.attrs.items()}
-        data = {name: file[name][()] for name in file}
-        columns = {
-            name: _info(name, file[name].attrs.get("unit"), file[name].attrs.get("meaning"))
-            for name in file
-        }
+    data, columns = {}, {}
+    with ExitStack() as stack:
+        with _whole(path, "not an HDF5 file, or damaged"):
+            file = stack.enter_context(h5py.File(path, "r"))
+            about = {name: str(text) for name, text in file.attrs.items()}
+            names = list(file)
+        _axes(path, about)  # before what is not of ebac is called damaged
+        for name in names:
+            with _whole(path, f"column {name} is damaged"):
+                data[name] = file[name][()]
+                texts = {key: str(text) for key, text in file[name].attrs.items()}
+            columns[name] = _info(path, name, texts, name)
     return _trace(path, data, columns, about)
 
 
 @contextmanager
 def _whole(path: Path, what: str) -> Iterator[None]:
-    """Say of a file that cannot be read that it is none of its kind; of a damaged one a library raises all sorts."""
+    """Say `what` is wrong with a file that cannot be read; of a damaged one a library raises all sorts."""
     try:
         yield
     except Exception as error:
-        raise ValueError(f"{path}: not {what}, or damaged ({_first(error)})") from None
+        raise ValueError(f"{path}: {what} ({_first(error)}); {REMEDY}") from None
+
+
+def _check(path: Path, what: str, texts: Mapping[str, str], name: str = "") -> None:
+    """Raise ValueError where texts are not those of their checksum; older files have none."""
+    rest = {key: text for key, text in texts.items() if key != CHECKSUM}
+    if CHECKSUM in texts and checked(rest, name) != texts:
+        raise ValueError(
+            f"{path}: {what} damaged, or changed; {REMEDY}. If it is changed on purpose, delete its {CHECKSUM}"
+        )
 
 
 def _trace(
@@ -95,6 +118,7 @@ def _trace(
     columns: dict[str, ColumnInfo],
     about: Mapping[str, str],
 ) -> Trace:
+    _check(path, "law or scenario is", about)
     axes = _axes(path, about)
     if "t" not in data:
         raise ValueError(f"{path}: not a log of ebac: the column t is missing")
@@ -120,8 +144,10 @@ def _axes(path: Path, about: Mapping[str, str]) -> int:
         raise ValueError(f"{path}: not a log of ebac: the number of axes is not in it") from None
 
 
-def _info(name: str, unit: object, meaning: object) -> ColumnInfo:
-    return ColumnInfo(name=name, unit=str(unit or "1"), meaning=str(meaning or ""))
+def _info(path: Path, name: str, texts: Mapping[str, str], part: str) -> ColumnInfo:
+    """Return what the texts of a column say of it; `part` is its name in the file."""
+    _check(path, f"the name, unit or meaning of column {part} is", texts, part)
+    return ColumnInfo(name=name, unit=texts.get("unit") or "1", meaning=texts.get("meaning") or "")
 
 
 def _words(found: Mapping[str, Any], name: str) -> dict[str, str]:
