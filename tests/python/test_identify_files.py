@@ -202,7 +202,7 @@ def test_columns_of_text_are_left_out_with_a_note(tmp_path: Path, kind: str) -> 
     signals = enumerate(zip(T, X, F, strict=True))
     rows = [f"{t:.6g},{TEXT[kind](i)},{x:.6g},{f:.6g}" for i, (t, x, f) in signals]
     path = tmp_path / "log.csv"
-    path.write_text("\n".join(["t,comment,x,force", *rows]))
+    path.write_text("\n".join(["t,comment,x,force", *rows, ""]))
     found = load(path)
     assert found.x == pytest.approx(X, abs=1e-9)
     assert "column 'comment' is left out: it contains text" in found.remarks
@@ -213,9 +213,8 @@ def test_columns_of_text_are_left_out_with_a_note(tmp_path: Path, kind: str) -> 
 def test_a_unit_that_its_heading_contradicts_is_told(tmp_path: Path) -> None:
     signals = zip(T, X, F, strict=True)
     path = tmp_path / "log.csv"
-    path.write_text(
-        "\n".join(["t,x [m],force", *(f"{t:.6g},{1e3 * x:.6g},{f:.6g}" for t, x, f in signals)])
-    )
+    rows = (f"{t:.6g},{1e3 * x:.6g},{f:.6g}" for t, x, f in signals)
+    path.write_text("\n".join(["t,x [m],force", *rows, ""]))
     told = "x: taken as mm as asked, column 'x [m]' says m"
     assert told in load(path, units={"x": "mm"}).remarks
     path.write_text(path.read_text().replace("x [m]", "x [mm]"))
@@ -225,7 +224,8 @@ def test_a_unit_that_its_heading_contradicts_is_told(tmp_path: Path) -> None:
 def test_a_rate_that_the_time_contradicts_is_told(tmp_path: Path) -> None:
     path = tmp_path / "log.csv"
     signals = zip(T, X, F, strict=True)
-    path.write_text("\n".join(["t,x,force", *(f"{t:.6g},{x:.9g},{f:.6g}" for t, x, f in signals)]))
+    rows = (f"{t:.6g},{x:.9g},{f:.6g}" for t, x, f in signals)
+    path.write_text("\n".join(["t,x,force", *rows, ""]))
     own = 1 / (T[1] - T[0])
     told = f"column 't', which says {own:.4g} rows a second, is not used"
     assert any(told in remark for remark in load(path, rate=own / 10).remarks)

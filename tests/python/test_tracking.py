@@ -242,7 +242,8 @@ def test_a_whole_circle_is_no_line() -> None:
 
 
 def write(path: Path, heading: str, points: Numbers) -> Path:
-    path.write_text(heading + "\n" + "\n".join(",".join(map(repr, map(float, p))) for p in points))
+    rows = (",".join(map(repr, map(float, p))) for p in points)
+    path.write_text("\n".join([heading, *rows, ""]))
     return path
 
 
@@ -295,7 +296,7 @@ def test_a_bad_file_is_told_by_name_and_place(tmp_path: Path, text: str, message
 @pytest.mark.parametrize("mark", [";", "\t"])
 def test_semicolons_tabs_and_decimal_commas_are_read(tmp_path: Path, mark: str) -> None:
     file = tmp_path / "a.csv"
-    rows = ["x [mm]; y [mm]", "1,5;2", "", "3.5;-4,25e1"]
+    rows = ["x [mm]; y [mm]", "1,5;2", "", "3.5;-4,25e1", ""]
     file.write_text("\n".join(rows).replace(";", mark))
     assert read_path(file).points == pytest.approx(np.array([[1.5, 2], [3.5, -42.5]]) / 1e3)
 

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import warnings
 from collections import Counter
 from itertools import chain
+from os import SEEK_END
 from pathlib import Path
 from typing import TypeVar
 
@@ -13,11 +15,41 @@ Line = TypeVar("Line", str, list[str])  # as text, or in cells
 SIMULATED = "Simulated by ebac"
 
 
+#: So much of the end of a file is read for its last line [bytes].
+LONGEST = 10_000
+
+
 def says_simulated(path: str | Path) -> bool:
     """Return whether the first lines of a file say that it is simulated: the note of a sample, or a column `true.x`."""
     with Path(path).open("rb") as file:
         head = file.readline() + file.readline()
     return head.startswith(f"# {SIMULATED}".encode()) or b"true.x" in head
+
+
+def check_end(path: str | Path) -> None:
+    """Refuse a CSV file of ours whose last line has no end; warn of one of another program, where that is usual.
+
+    It may have been cut inside its last number, which then is another one.
+
+    Raises
+    ------
+    ValueError
+        For one that `Trace.to_csv` or `ebac demo` wrote; the message does not name the file.
+    """
+    with Path(path).open("rb") as file:
+        ours = file.readline().startswith(b"tick,t [s],") or says_simulated(path)
+        file.seek(max(0, file.seek(0, SEEK_END) - LONGEST))
+        last = file.read().splitlines(keepends=True)[-1:]
+    if not last or last[0].endswith((b"\n", b"\r")) or last[0].startswith((b"#", b"%")):
+        return
+    found = (
+        f"its last line has no end, so it may be cut: ...{last[0][-20:].decode(errors='replace')}"
+    )
+    if ours:
+        raise ValueError(f"{found}; use a copy of it or, if it is whole, end that line")
+    warnings.warn(
+        f"{path}: {found}; check its last number, and end that line if it is whole", stacklevel=3
+    )
 
 
 def read_text(path: str | Path) -> str:

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ebac._util.plural import plural
-from ebac._util.text_file import delimited, read_text, with_rows
+from ebac._util.text_file import check_end, delimited, read_text, with_rows
 
 Columns: TypeAlias = dict[str, NDArray[np.float64]]
 
@@ -53,6 +53,7 @@ def read_columns(path: Path) -> Table:
 def _csv(path: Path) -> Table:
     try:
         lines = read_text(path).splitlines()
+        check_end(path)
     except ValueError as error:
         raise ValueError(f"{path.name}: {error}") from None
     lines = [line for line in lines if line.strip() and not line.startswith(("#", "%"))]

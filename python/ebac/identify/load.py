@@ -99,6 +99,11 @@ def load(
     ValueError
         When it cannot be read, a column is missing or is not numeric, or a unit is unknown; for an option that does not
         apply to this file.
+
+    Warns
+    -----
+    UserWarning
+        When the last line of a CSV file has no end, and so its last number may be cut.
     """
     require_file(path, "ebac.identify.load")
     path = Path(path)

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ebac._util.headings import FACTORS, signal_heading, split_heading
-from ebac._util.text_file import read_text, says_simulated
+from ebac._util.text_file import check_end, read_text, says_simulated
 from ebac.trace import Trace
 from ebac.trace.columns import ColumnInfo
 
@@ -30,7 +30,12 @@ def read_csv(path: Path) -> Trace:
     FileNotFoundError
         When there is no such file.
     ValueError
-        When it is no such table; the message names the line.
+        When it is no such table; the message names the line. When it is a file of ours that was cut.
+
+    Warns
+    -----
+    UserWarning
+        When the last line of another program's file has no end: it may have been cut inside its last number.
     """
     try:
         with path.open(encoding="utf-8-sig") as file:
@@ -52,6 +57,10 @@ def read_csv(path: Path) -> Trace:
         raise ValueError(f"{path}: line {line} {_not_a_log(names, path)}")
     units = {name: unit for name, unit, _ in split}
     flat = _numbers(path, names, first, line, mark)
+    try:
+        check_end(path)
+    except ValueError as error:
+        raise ValueError(f"{path}: {error}") from None
     flat |= {name: factor * flat[name] for name, _, factor in split if factor != 1}
     axes = _axes(names)
     data, parts = gathered(flat, names, axes)

@@ -136,15 +136,16 @@ def load(
     -----
     UserWarning
         When parts of an MCAP file are damaged: the rows in them are missing; when its end is missing, because it was
-        cut or is still being written. `ebac.logs.read` gives more, and does not warn.
+        cut or is still being written. `ebac.logs.read` gives more, and does not warn. When the last line of a CSV file
+        of another program has no end, and so its last number may be cut.
 
     Raises
     ------
     FileNotFoundError
         When there is no such file.
     ValueError
-        For another extension, a file that is not in the format of its extension, or a part that lies outside it or
-        ends before it begins.
+        For another extension, a file that is not in the format of its extension, is damaged or, of a CSV file of ebac,
+        cut, or a part that lies outside it or ends before it begins.
     ModuleNotFoundError
         When the library of a format is not installed; the message names it.
     """

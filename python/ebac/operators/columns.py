@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ebac._util.headings import FACTORS, split_heading
-from ebac._util.text_file import delimited, read_text, with_rows
+from ebac._util.text_file import check_end, delimited, read_text, with_rows
 
 #: Free motion of a hand before contact with the wall, unless given [m].
 APPROACH = 0.010
@@ -104,6 +104,7 @@ def read_csv(path: str | Path) -> dict[str, list[str]]:
     except csv.Error as error:
         raise ValueError(str(error)) from None
     heading, *rows = with_rows(lines)
+    check_end(path)
     names = [cell.strip() for cell in heading]
     if len(set(names)) < len(names):
         twice = next(name for name in names if names.count(name) > 1)

@@ -200,6 +200,11 @@ class Operators:
             When there is no such file.
         ValueError
             As `from_columns`, with the file's name; rows are counted from 1 below the heading.
+
+        Warns
+        -----
+        UserWarning
+            When the last line has no end, and so its last number may be cut.
         """
         require_file(path, "Operators.from_csv")
         try:

@@ -74,6 +74,11 @@ def read_path(
         When there is no such file.
     ValueError
         When the file, a column or a number cannot be read; with the name of the file.
+
+    Warns
+    -----
+    UserWarning
+        When the last line of a CSV file has no end, and so its last number may be cut.
     """
     path = Path(file)
     if unit is not None and unit not in UNITS:
