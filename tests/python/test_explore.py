@@ -254,3 +254,24 @@ def test_in_a_browser_an_axis_of_stiffness_has_numbers_whatever_its_range(
     ticks = page.evaluate(TICKS)
     assert 2 <= len(ticks) <= 9
     assert not errors
+
+
+def test_a_page_is_saved_whole_under_a_name_that_says_so(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    shown = ebac.simulate(ebac.Scenario(seconds=0.05), "direct").explore("x")
+    for name in ("x.png", "x.pdf", "x.csv", "html.x"):
+        with pytest.raises(
+            ValueError, match=rf"{name}: must end in \.html or \.htm, as it is a page"
+        ):
+            shown.save(tmp_path / name)
+    assert list(tmp_path.iterdir()) == []
+    for name in ("x.html", "X.HTM", "x"):
+        shown.save(tmp_path / name)
+        assert (tmp_path / name).read_text(encoding="utf-8") == shown.html
+    monkeypatch.setattr(Path, "replace", lambda *_: (_ for _ in ()).throw(OSError("no")))
+    (tmp_path / "x.html").write_text("old")
+    with pytest.raises(OSError, match="no"):
+        shown.save(tmp_path / "x.html")
+    assert (tmp_path / "x.html").read_text() == "old"
+    assert len(list(tmp_path.iterdir())) == 3

@@ -15,6 +15,8 @@ from ebac.trace import Trace
 
 #: Height of a panel, and of what stands around them [pixels].
 PANEL, AROUND = 190, 150
+#: How the name of a page ends.
+PAGES = (".html", ".htm")
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -49,8 +51,25 @@ class Exploration:
         return PANEL * len(self.panels) + AROUND
 
     def save(self, path: str | Path) -> None:
-        """Write the page; any browser opens it, without network and without Python."""
+        """Write the page; any browser opens it, without network and without Python.
+
+        Parameters
+        ----------
+        path : str or Path
+            Ends in .html or .htm, or has no ending; a file of that name is replaced once the page is whole.
+
+        Raises
+        ------
+        ValueError
+            For another extension: `trace.plot()` draws a picture.
+        OSError
+            When the file cannot be written; one of that name stays as it is.
+        """
         require_path(path, "Exploration.save")
+        if Path(path).suffix.lower() not in ("", *PAGES):  # such as /dev/stdout
+            raise ValueError(
+                f"{path}: must end in {' or '.join(PAGES)}, as it is a page; trace.plot() draws a picture"
+            )
         write_text(path, self.html)
 
     def _repr_html_(self) -> str:
