@@ -19,9 +19,10 @@ import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
-from ebac import Hand, MinimumJerk, Scenario, Sine, Timing, gastroscope, teleop
+from ebac import Hand, MinimumJerk, Scenario, Sine, Timing, gastroscope, studies, teleop
 from ebac._util.child_processes import Child, end
-from ebac.plot import plot_teleop, plot_teleop_runs
+from ebac.operators import Operators
+from ebac.plot import plot_study, plot_teleop, plot_teleop_runs
 from ebac.teleop import Link, Packet, SlaveModel
 from ebac.teleop.processes import Slave
 
@@ -414,6 +415,11 @@ def test_study_and_its_figures() -> None:
     assert shown == pytest.approx([50 - 1.25, 50 + 1.25])  # beside the delay, one on each side
     with pytest.raises(KeyError, match="no network is called 'ruff'; there are: rough"):
         plot_teleop(found, "ruff")
+    with pytest.raises(TypeError, match=r"plot_study takes a Study of ebac\.studies, not one of"):
+        next(iter(plot_study(found)))  # type: ignore[arg-type]
+    other = studies.study(Operators.sample(2), "direct", ["d1K10"])
+    with pytest.raises(TypeError, match=r"plot_teleop takes a Study of ebac\.teleop\.study, not"):
+        plot_teleop(other)  # type: ignore[arg-type]
     assert "log beyond -1 mJ" in figure.axes[2].get_ylabel()
     free, soft = figure.axes[4:]  # there is no transparency without a contact
     assert not free.lines

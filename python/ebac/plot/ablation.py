@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 ABREAST = 5
 
 
-@takes_its_class
+@takes_its_class("ebac.studies")
 def plot_ablation(found: Ablation) -> Picture:
     """Draw an ablation: the law as it is, the law without each piece, other laws.
 

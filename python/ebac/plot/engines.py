@@ -24,7 +24,7 @@ STYLES = {
 SHOWN, ABOUT = 1.5, 20.0
 
 
-@takes_its_class
+@takes_its_class("ebac.studies.engines")
 def plot_engines(found: Engines) -> Picture:
     """Draw the position under each law, a column for each rate of the engine.
 

@@ -18,7 +18,7 @@ _STATES = {0: "idle", 1: "arm", 2: "run", 3: "stop", 4: "fault"}
 _AXES = ("#0072b2", "#d55e00")
 
 
-@takes_its_class
+@takes_its_class("ebac.faults")
 def plot_fault(case: FaultCase) -> Picture:
     """Draw position, current asked and applied, and state of a case, with the injected fault marked.
 

@@ -25,7 +25,7 @@ FEW = 5
 WALL, WAY, TARGET, LIMIT = "#c98c8c", "#0072b2", "#d55e00", "#cc0000"
 
 
-@takes_its_class
+@takes_its_class("ebac.gastroscope")
 def plot_gastroscopy(run: Gastroscopy) -> Picture:
     """Draw the way from outside, the view of the camera, and the forces over time.
 
@@ -152,7 +152,7 @@ def _forces(ax: Axes, run: Gastroscopy) -> None:
     legend(ax)
 
 
-@takes_its_class
+@takes_its_class("ebac.gastroscope")
 def plot_gastroscopy_study(found: GastroscopyStudy) -> Picture:
     """Draw the largest tissue force of every physician without and with feedback, and the effect.
 

@@ -19,7 +19,7 @@ _OWN, _OTHER = "#009e73", "#0072b2"
 _BINS = 25
 
 
-@takes_its_class
+@takes_its_class("ebac.realtime")
 def plot_jitter(found: Jitter, other: Cyclictest | None = None) -> Picture:
     """Draw how many wake-ups were how late, both axes logarithmic.
 

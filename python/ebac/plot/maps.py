@@ -27,7 +27,7 @@ SHORT = 25
 LINE: dict[str, Any] = {"colors": "black", "linewidths": 1.2, "linestyles": "solid"}
 
 
-@takes_its_class
+@takes_its_class("ebac.studies.maps")
 def plot_map(found: StabilityMap) -> Picture:
     """Draw a map: verdict, swing, energy drawn and, where there is an ideal rest, deviation, one panel each.
 

@@ -23,7 +23,7 @@ MOST_CHANNELS = 6
 MARGIN = 0.02
 
 
-@takes_its_class
+@takes_its_class("ebac.trace")
 def plot_overlay(found: Trace, golden: Trace, divergences: Sequence[Divergence] = ()) -> Picture:
     """Draw a trace over a golden one.
 

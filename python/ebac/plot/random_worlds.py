@@ -20,7 +20,7 @@ LEAST, TOP = 1e-3, 10.0
 SHORTEST, LONGEST = 1e-3, 4.0
 
 
-@takes_its_class
+@takes_its_class("ebac.studies.random_worlds_result")
 def plot_random_worlds(found: RandomWorlds) -> Picture:
     """Draw a column for each kind of world, a line for each law: shares of hands, all devices and delays together.
 

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 VERDICTS = ("exact, quiet and passive", "gives out energy", "not exact", "not quiet", "swings")
 
 
-@takes_its_class
+@takes_its_class("ebac.studies.shapes")
 def plot_shapes(found: Shapes) -> Picture:
     """Draw a panel for each stiffness: a line for each world and device, a column for each law.
 

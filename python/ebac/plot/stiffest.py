@@ -29,7 +29,7 @@ LINES: dict[str, tuple[str, dict[str, Any]]] = {
 NEEDED: dict[str, Any] = {"color": "0.6", "lw": 0.8}
 
 
-@takes_its_class
+@takes_its_class("ebac.studies.stiffest_result")
 def plot_stiffest(found: Stiffest) -> Picture:
     """Draw a panel for each law, the best first: the share of the hands that meet each criterion over the stiffness.
 

@@ -36,7 +36,7 @@ RING: dict[str, Any] = {"marker": "o", "ms": 4, "mew": 0.9, "mfc": "white"}
 CROSS: dict[str, Any] = {"marker": "x", "ms": 5, "mew": 1.1}
 
 
-@takes_its_class
+@takes_its_class("ebac.studies")
 def plot_study(study: Study) -> Iterator[tuple[str, Picture]]:
     """Draw a study: an overview, then scatters of deviation against swing, some conditions a page.
 

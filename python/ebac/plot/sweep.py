@@ -13,7 +13,7 @@ from ebac.studies.sweeps import SweepResult
 LEAST_SWING = 1e-7
 
 
-@takes_its_class
+@takes_its_class("ebac.studies.sweeps")
 def plot_sweep(result: SweepResult) -> Picture:
     """Draw each run of a sweep by its deviation and its swing, a colour per law.
 

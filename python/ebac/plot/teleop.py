@@ -31,7 +31,7 @@ TICKS = 6
 LEAST = 0.005
 
 
-@takes_its_class
+@takes_its_class("ebac.teleop.study")
 def plot_teleop(found: Study, network: str = "rough") -> Picture:
     """Draw a column for each contact: shaking, energy of both ports and transparency over the delay.
 

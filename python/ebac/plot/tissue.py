@@ -21,7 +21,7 @@ IN, OUT, EXACT = "#0072b2", "#d55e00", "0.7"
 BUZZ, MEAN = 20, 0.01
 
 
-@takes_its_class
+@takes_its_class("ebac.studies.tissue")
 def plot_tissue(found: Tissue) -> Picture:
     """Draw a column for each material: its curves, and below them a row for the force under each law.
 

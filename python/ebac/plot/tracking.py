@@ -24,7 +24,7 @@ FIT, PATH, PAPER = "#d55e00", "#0072b2", "#000000"
 SHOWN = 0.15
 
 
-@takes_its_class
+@takes_its_class("ebac.tracking.evaluate")
 def plot_tracking(tracking: Tracking) -> Picture:
     """Draw a path with its fit as in Fig. 8 and 9, its deviation exaggerated, and its deviations as a histogram.
 
@@ -143,7 +143,7 @@ def _histogram(ax: Axes, fit: LineFit | CircleFit) -> None:
     legend(ax, columns=3)
 
 
-@takes_its_class
+@takes_its_class("ebac.tracking.budget")
 def plot_budget(budget: Budget) -> Picture:
     """Draw the standard deviation of each source beside the paper's, for the line and the circle.
 

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 NEAR = 0.15
 
 
-@takes_its_class
+@takes_its_class("ebac.studies")
 def plot_worst(found: Worst, hand: WorstHand | None = None) -> Picture:
     """Draw a hand of a search, by default the worst: the whole run, and the instant at which most is drawn.
 

@@ -46,7 +46,7 @@ CEILINGS: dict[str, dict[str, dict[str, Any]]] = {
 }
 
 
-@takes_its_class
+@takes_its_class("ebac.studies.zwidth")
 def plot_zwidth(found: ZWidth, criteria: Sequence[str] = ("usable", "energy")) -> Picture:
     """Draw a Z-width: borders by criterion and delay, with the ceilings, and the areas below.
 
