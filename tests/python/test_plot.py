@@ -52,7 +52,7 @@ def test_of_a_log_without_the_columns_of_a_loop_what_never_changes_is_left_out(
 ) -> None:
     file = tmp_path / "other.csv"
     rows = [f"{i * 1e-3},{i},{i * 1e-5},0" for i in range(100)]
-    file.write_text("\n".join(["t,tick,x,sequence", *rows]))
+    file.write_text("\n".join(["t,tick,x,sequence", *rows, ""]))
     (panel,) = ebac.load(file).plot().axes
     assert len(panel.lines) == 1
 
