@@ -18,7 +18,7 @@ def patient_file(text: str) -> str:
     if "overruns = 100000" in text:
         return text
     limits = "overruns = 100000\npause = 100.0\nforce_age = 10.0\njump = 1.0\nspeed = 100.0"
-    for key, patient in (("silent", "silent = 1000"), ("speed", limits)):
-        text, found = re.subn(rf"(?m)^{key} = [\d.]+", patient, text)
-        assert found == 1, f"{key}: stands {found} times in the file, not once"
+    for line, patient in ((r"\[bus\]", "[bus]\nsilent = 1000"), (r"speed = [\d.]+", limits)):
+        text, found = re.subn(rf"(?m)^{line}", patient, text)
+        assert found == 1, f"{line}: stands {found} times in the file, not once"
     return text

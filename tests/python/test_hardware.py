@@ -474,7 +474,7 @@ def test_the_example_of_the_page_runs(tmp_path: Path, monkeypatch: pytest.Monkey
     patient = "overruns = 100000\npause = 100.0\nforce_age = 10.0\njump = 1.0\nspeed = 100.0\n"
     text = EXAMPLE.read_text(encoding="utf-8").replace("speed = 1.0 # m/s\n", patient)
     (tmp_path / "joystick.toml").write_text(
-        text.replace("silent = 10 ", "silent = 1000 "), encoding="utf-8"
+        text.replace("[bus]\n", "[bus]\nsilent = 1000\n"), encoding="utf-8"
     )
     monkeypatch.chdir(tmp_path)
     assert code.count("seconds=5") == 2

@@ -134,7 +134,7 @@ def own_bus(folder: Path) -> Path:
     text = text.replace('interface = "socketcan"', 'interface = "ebac"')
     text = text.replace('channel = "can0"', 'channel = "joystick-live"')
     text = text.replace('setup = "verify"', 'setup = "apply"').replace(
-        "silent = 10 ", "silent = 200 "
+        "[bus]\n", "[bus]\nsilent = 200\n"
     )
     before, _, rest = text.partition("[sensor]")
     file = folder / "joystick.toml"

@@ -9,6 +9,7 @@ from typing import Any
 import pytest
 
 from ebac import _core, drives
+from ebac.datasets import joystick_text
 from ebac.drives.state import State
 from ebac.hardware import Configuration, Run, drive_setup
 from ebac.hardware.interrupts import OTHERS, SIGNALS, Interrupts, Terminated
@@ -21,8 +22,12 @@ EXAMPLE = Path(__file__).parents[2] / "examples" / "joystick.toml"
 def made_of(monkeypatch: pytest.MonkeyPatch) -> Any:
     """Say what the loop of a configuration is made of."""
     monkeypatch.setattr(_core, "RunSetup", lambda **parts: SimpleNamespace(**parts))
-    place: Any = SimpleNamespace(sensor=None, aim=None, signs=lambda known: known.signs)
-    return lambda known: run_setup(known, known.drives.nodes, backend=place, seconds=1.0)
+
+    def made(known: Configuration, *, real: bool = True) -> Any:
+        place: Any = SimpleNamespace(sensor=None, aim=None, real=real)
+        return run_setup(known, known.drives.nodes, backend=place, seconds=1.0)
+
+    return made
 
 
 @pytest.fixture
@@ -38,6 +43,18 @@ def test_drives_that_may_be_silent_longer_have_longer_to_be_enabled(
     known = Configuration.load(EXAMPLE)
     patient = known.replace(silent=silent, timing=known.timing.replace(dt=dt))
     assert made_of(patient).drives["enable_ticks"] == ticks
+
+
+@pytest.mark.parametrize("name", ["handle", "joystick", "joystick-3", "gastroscope-bend"])
+def test_real_drives_may_be_silent_for_3_samples_and_simulated_ones_for_10(
+    made_of: Any, name: str
+) -> None:
+    known = Configuration.from_toml(joystick_text(name))
+    silent = [made_of(known, real=real).drives["silent_ticks"] for real in (True, False)]
+    assert silent == [3, 10]
+    assert known.timed_bus().silent_ticks == 3, "on the virtual clock no drive is late"
+    given = [made_of(known.replace(silent=5), real=real) for real in (True, False)]
+    assert [one.drives["silent_ticks"] for one in given] == [5, 5]
 
 
 def test_the_drives_watch_the_loop_and_it_watches_them(setup: Any) -> None:

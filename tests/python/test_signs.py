@@ -20,7 +20,7 @@ PATIENT = {"force_age": 10.0, "overruns": 100000, "pause": 100.0, "jump": 1.0}
 
 def wired(tmp_path: Path, motor: list[int], encoder: list[int], *, sensor: bool = True) -> Path:
     example = EXAMPLES / ("joystick.toml" if len(motor) == 2 else "joystick-3.toml")
-    text = example.read_text(encoding="utf-8").replace("silent = 10 ", "silent = 1000 ")
+    text = example.read_text(encoding="utf-8").replace("[bus]\n", "[bus]\nsilent = 1000\n")
     if not sensor:
         text = text[: text.index("[sensor]")] + text[text.index("# [observer]") :]
     patient = "".join(f"{key} = {value}\n" for key, value in PATIENT.items())

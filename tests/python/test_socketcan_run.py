@@ -36,7 +36,7 @@ def config(tmp_path: Path) -> Path:
     text = EXAMPLE.read_text(encoding="utf-8")
     for before, after in (
         ('"can0"', f'"{INTERFACE}"'),
-        ("silent = 10", "silent = 500"),
+        ("[bus]", "[bus]\nsilent = 500"),
         ('setup = "verify"', 'setup = "apply"'),
         ("dt = 1e-3", f"dt = {DT}"),
         ("stiffness = 10e3", "stiffness = 50.0"),

@@ -287,7 +287,7 @@ def test_the_command_runs_three_simulated_drives_in_a_mesh(tmp_path: Any) -> Non
         joystick_text("joystick-3")
         .replace(ball, mesh)
         .replace("[limits]", patient)
-        .replace("silent = 10", "silent = 500")
+        .replace("[bus]", "[bus]\nsilent = 500")
     )
     file.write_text(text, encoding="utf-8")
     asked = ["run", str(file), "--simulated", "--seconds", "2", "--no-files", "--json"]

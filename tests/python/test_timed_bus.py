@@ -17,6 +17,7 @@ from ebac import _core, drives
 from ebac.cli import app
 from ebac.drives import TimedBus
 from ebac.hardware import Configuration, ConfigurationError, under_the_law
+from ebac.hardware.configuration_fields import SILENT
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "joystick.toml"
 
@@ -150,7 +151,7 @@ def test_a_drive_off_the_bus_ends_the_run_without_force(known: Configuration, no
     trace = caught.value.trace
     assert caught.value.fault is ebac.Fault.DRIVE_SILENT
     first = int((trace["fault"] != 0).argmax())
-    assert 500 < first <= 500 + known.silent + 3
+    assert 500 < first <= 500 + SILENT + 3
     assert (trace["current"][first:] == 0).all()
     assert (trace["bus.target_permille"][first + 1 :] == 0).all()
 

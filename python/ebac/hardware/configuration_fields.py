@@ -10,15 +10,19 @@ from ebac.drives.profile_fields import Key
 from ebac.drives.toml_positions import Path, Source, dotted
 from ebac.hardware.tables import table
 
+#: Ticks in a row without process data that are a fault where the key is not given: of real drives, and of simulated
+#: ones, which share the processors with their loop [samples].
+SILENT, SILENT_SIMULATED = 3, 10
+
 BUS = (
     Key(
         name="silent",
         unit="samples",
         low=1,
         high=1000,
-        default=3,
         whole=True,
-        remedy="ticks in a row without process data that are a fault",
+        remedy="ticks in a row without process data that are a fault; leave it out for "
+        f"{SILENT} on hardware and {SILENT_SIMULATED} with simulated drives",
     ),
     Key(
         name="answer_share",

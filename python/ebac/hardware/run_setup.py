@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from ebac import _core
 from ebac.drives.signs_of_life import guards, own_beat, request_period
-from ebac.hardware.configuration_fields import check_seconds
+from ebac.hardware.configuration_fields import SILENT, SILENT_SIMULATED, check_seconds
 from ebac.realtime.mode import mode_named
 
 if TYPE_CHECKING:
@@ -51,6 +51,9 @@ def run_setup(
     watch = known.limits.watch_force and backend.sensor is not None
     both = known.limits.watch_motion and backend.sensor is not None
     limits = known.limits.replace(watch_force=watch, watch_motion=both)
+    silent = known.silent
+    if silent is None:
+        silent = SILENT if backend.real else SILENT_SIMULATED
     return _core.RunSetup(
         device=known.device,
         environment=known.environment,
@@ -77,9 +80,9 @@ def run_setup(
         encoder_sign=list(signs.encoder),
         encoder_zero=list(known.zero.counts),
         drives={
-            "silent_ticks": known.silent,
+            "silent_ticks": silent,
             "torque_ticks": min(max(10, ceil(_LAG / dt)), 128),
-            "enable_ticks": ceil(_ENABLE / dt) + known.silent,
+            "enable_ticks": ceil(_ENABLE / dt) + silent,
             "heartbeat_timeout": _BEATS * max(watched),
             "own_node": masters.pop() if beat > 0 else 0,  # one: `check_stall`
             "heartbeat_period": beat or 0.01,

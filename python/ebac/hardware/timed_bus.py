@@ -10,6 +10,7 @@ from ebac.drives.frame_length import frame_bits, least_bits
 from ebac.drives.network import Network
 from ebac.drives.signs_of_life import own_beat, request_period
 from ebac.drives.stall import watches
+from ebac.hardware.configuration_fields import SILENT
 from ebac.hardware.drive_limits import allowed_ratio
 
 if TYPE_CHECKING:
@@ -17,7 +18,7 @@ if TYPE_CHECKING:
 
 
 def timed_bus(
-    network: Network, *, silent: int, answer_share: float, changes: Mapping[str, Any]
+    network: Network, *, silent: int | None, answer_share: float, changes: Mapping[str, Any]
 ) -> TimedBus:
     """Return the bus of a network for a simulated run: bit rate, waiting time, watches, limits of torque.
 
@@ -25,8 +26,8 @@ def timed_bus(
     ----------
     network : Network
         The drives. The shortest watch and the least torque that any allows are those of all.
-    silent : int
-        Ticks in a row without process data that are a fault [samples].
+    silent : int or None
+        Ticks in a row without process data that are a fault [samples]; None for as many as on hardware, 3.
     answer_share : float
         How long the loop waits for answers, as a share of the sample time.
     changes : mapping
@@ -46,7 +47,7 @@ def timed_bus(
     )
     known = {
         "bit_rate": float(network.bitrate),
-        "silent_ticks": silent,
+        "silent_ticks": SILENT if silent is None else silent,
         "answer_share": answer_share,
         "drive_heartbeat": max(float(one.values["heartbeat.producer"]) for one in profiles),
         "loop_silence": min(loop, default=0.0),
