@@ -1,9 +1,11 @@
 """The configuration of a run: every refusal names file, line, value, unit, range and remedy."""
 
 import copy
+import dataclasses
 import pickle
 import re
 from pathlib import Path
+from typing import Any
 
 import pytest
 from hypothesis import given, settings
@@ -312,3 +314,41 @@ def test_a_configuration_is_copied_and_goes_to_another_process() -> None:
     for same in (pickle.loads(pickle.dumps(known)), copy.deepcopy(known)):
         assert same == known
         assert same.drives.nodes[0].profile.values == known.drives.nodes[0].profile.values
+
+
+# --- the first run ---
+
+
+def test_a_first_run_is_in_free_air_with_small_limits_and_else_the_same() -> None:
+    text = "[engine]\ncommand = 'python mine.py'\n[limits]\nspeed = 0.5\nend = 0.07\n[sensor]\n"
+    known = Configuration.from_toml(text).replace(law="tca", observer=True)
+    first = known.first_run()
+    small = {"peak_current": 0.1, "continuous_current": 0.1}
+    assert first.limits == known.limits.replace(**small)
+    assert first.limits.speed == 0.5, "lower than 1 m/s"
+    assert first.environment == ebac.Free()
+    assert first.engine == ""
+    law: Any = first.design()
+    assert law == known.design().replace(kp=0.0)
+    same = {"environment", "engine", "changes", "limits", "text"}
+    for one in dataclasses.fields(first):
+        if one.name not in same:
+            assert getattr(first, one.name) == getattr(known, one.name), one.name
+    assert first.text.startswith(known.text)
+    assert "\n# environment: free air instead of the engine, python mine.py\n" in first.text
+    assert "\n# law.kp: 0 instead of 0.5, so that" in first.text
+    assert "\n# limits.peak_current: 0.1 A instead of 3.941 A\n" in first.text
+    assert "speed: " not in first.text
+    again = Configuration.from_toml(first.text)
+    assert again.limits == known.limits, "what differs are comments"
+
+
+@pytest.mark.parametrize("law", ["tca-damped", "ebac"])
+def test_a_first_run_has_no_force(law: str) -> None:
+    """Where the law of the file pushes against a hand in its wall."""
+    known = Configuration.load(EXAMPLE).replace(law=law, seconds=1.5)
+    assert abs(known.simulate()["f_cmd"]).max() > 1
+    trace = known.first_run().simulate()
+    assert abs(trace["x"]).max() > 0.03, "beyond where the wall was"
+    assert not trace["f_cmd"].any()
+    assert not trace["current"].any()

@@ -104,6 +104,25 @@ def test_a_run_gives_rows_verdict_figure_and_a_log_that_others_read(
     assert json.loads(info.stdout)["command"] == "log info"
 
 
+def test_a_first_run_on_simulated_drives_is_in_free_air_and_its_log_tells_so(
+    config: Path, tmp_path: Path
+) -> None:
+    out = tmp_path / "out"
+    asked = ["run", str(config), "--simulated", "--first", "--seconds", "0.3", "--json"]
+    done = CliRunner().invoke(app, [*asked, "--out", str(out)])
+    assert done.exit_code == 0, done.output
+    told = json.loads(done.stdout)
+    assert told["drives"] == ["switch on disabled"] * 2
+    assert "limits.speed: 1 m/s instead of 100 m/s" in told["first_run"]
+    (log,) = out.glob("*.mcap")
+    trace = ebac.load(log)
+    assert trace.scenario is not None
+    assert trace.scenario.environment == ebac.Free()
+    assert not trace["current"].any()
+    kept = ebac.logs.read(log).about.files["configuration.toml"]
+    assert all(f"# {line}\n" in kept for line in told["first_run"])
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("number", "code"), [(signal.SIGINT, 130), (signal.SIGTERM, 143), (signal.SIGHUP, 129)]

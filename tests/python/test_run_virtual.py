@@ -40,6 +40,50 @@ def test_a_virtual_run_is_the_simulation_and_leaves_the_same_files(tmp_path: Pat
     np.testing.assert_array_equal(ebac.logs.load(log)["x"], trace["x"])
 
 
+def test_a_first_run_prints_and_records_what_it_changes(tmp_path: Path) -> None:
+    out = tmp_path / "out"
+    before = EXAMPLE.read_bytes()
+    asked = [*RUN, "--first", "--law", "tca", "--out", str(out)]
+    done = CliRunner().invoke(app, asked)
+    assert done.exit_code == 0, done.output
+    assert EXAMPLE.read_bytes() == before
+    lines = [
+        "environment: free air instead of a wall of 10 kN/m at 10 mm",
+        "law.kp: 0 instead of 0.5, so that the law feeds no force back",
+        "limits.peak_current: 0.1 A instead of 3.941 A",
+        "limits.continuous_current: 0.1 A instead of 0.9851 A",
+    ]
+    assert [f"First run, {line}" for line in lines] == done.stdout.splitlines()[:4]
+    (kept,) = out.glob("*.json")
+    told = json.loads(kept.read_text(encoding="utf-8"))
+    assert told["first_run"] == lines
+    assert told["rows"][0]["verdict"] == "no contact"
+    (log,) = out.glob("*.mcap")
+    text = ebac.logs.read(log).about.files["configuration.toml"]
+    assert text.startswith(before.decode())
+    assert all(f"\n# {line}\n" in text for line in lines)
+
+
+@pytest.mark.parametrize(
+    ("other", "message"),
+    [
+        (["--wall-stiffness", "100"], "--wall-stiffness: --first has no virtual world"),
+        (["--engine-command", "cat"], "--engine-command: --first has no virtual world"),
+    ],
+)
+def test_a_world_for_a_first_run_is_refused(other: list[str], message: str) -> None:
+    done = CliRunner().invoke(app, [*RUN, "--first", *other])
+    assert done.exit_code == 2
+    assert message in " ".join(done.stderr.split())
+
+
+def test_a_wall_that_comes_in_a_first_run_is_refused() -> None:
+    asked = ["run", str(EXAMPLE), "--simulated", "--first", "--at", "1 environment.stiffness=2e4"]
+    done = CliRunner().invoke(app, asked)
+    assert done.exit_code == 2
+    assert "Free has no parameter 'stiffness'" in " ".join(done.stderr.split())
+
+
 def test_two_runs_of_one_second_have_names_of_their_own(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -29,7 +29,7 @@ def describe(scenario: Scenario) -> str:
         (
             described_device(scenario.device),
             described_hand(scenario.hand),
-            _environment(scenario.environment),
+            described_environment(scenario.environment),
             described_time(scenario),
         )
     )
@@ -155,11 +155,9 @@ def described_hand(hand: Hand) -> str:
     return f"{name} ({hand.mass:g} kg, {hand.damping:g} N s/m, {hand.stiffness:g} N/m, {goal})"
 
 
-def _environment(environment: Environment) -> str:
+def described_environment(environment: Environment) -> str:
     if isinstance(environment, Corner):
-        return (
-            f"a corner of {_environment(environment.first)} and {_environment(environment.second)}"
-        )
+        return f"a corner of {described_environment(environment.first)} and {described_environment(environment.second)}"
     if isinstance(environment, Disc):
         centre = f"({1e3 * environment.x:g}, {1e3 * environment.y:g}) mm"
         size = f"{1e3 * environment.radius:g} mm"

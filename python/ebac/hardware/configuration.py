@@ -195,6 +195,25 @@ class Configuration:
         """Return a copy with some parts changed."""
         return dataclasses.replace(self, **changes)
 
+    def first_run(self) -> Self:
+        """Return the configuration of the first run of a device: the same in free air, with small limits.
+
+        There is no virtual world, and the gains of a force loop are 0, so that the force of a law of the package is
+        zero. `limits.peak_current` and `limits.continuous_current` are at most 0.1 A, `limits.speed` is at most 1 m/s;
+        lower ones stay, and so does all else. What differs stands as comments at the end of `text`, and thus in the
+        log. `ebac run FILE --first` runs it.
+
+        Raises
+        ------
+        TypeError, ValueError
+            As `design`, for a law that cannot run.
+        """
+        from ebac.hardware.first_run import changed_parts, differences
+
+        first = self.replace(**changed_parts(self))
+        notes = "".join(f"# {line}\n" for line in differences(self, first))
+        return first.replace(text=f"{self.text}\n# A first run, with:\n{notes}")
+
     def design(self) -> CoreLaw:
         """Return the law, designed for the device. Without a force sensor the gains of its force loop are 0."""
         with_sensor = self.sensor is not None

@@ -15,7 +15,7 @@ from ebac.hardware.interrupts import Interrupts
 from ebac.hardware.run import Run
 from ebac.hardware.run_log import discard_log
 from ebac.hardware.run_setup import started
-from ebac.logs.about import POSITIONS_FILE, SIMULATED_FILE
+from ebac.logs.about import CONFIGURATION_FILE, POSITIONS_FILE, SIMULATED_FILE
 from ebac.logs.writer import new_log
 
 if TYPE_CHECKING:
@@ -75,7 +75,7 @@ def power_up(
     try:
         if log is not None:
             rows = [one.row() for one in positions]
-            files = {"configuration.toml": known.text, POSITIONS_FILE: json.dumps(rows)}
+            files = {CONFIGURATION_FILE: known.text, POSITIONS_FILE: json.dumps(rows)}
             if backend.aim is not None:  # a simulated hand: drives and device are simulated too
                 files[SIMULATED_FILE] = f"{backend.about}\n"
             run.record(log, files=files, sync=known.sync, file=file)

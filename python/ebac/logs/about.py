@@ -15,6 +15,8 @@ from ebac.scenario import Scenario
 from ebac.scenario_text import text_for_file
 
 SCENARIO_FILE = "scenario.toml"
+#: Attached to the log of a run of a configuration: its text.
+CONFIGURATION_FILE = "configuration.toml"
 #: Attached to the log of a run on drives: where each axis stood before it had power, and the zero of its encoder.
 POSITIONS_FILE = "positions.json"
 #: Attached to the log of a run on simulated drives: what was simulated.

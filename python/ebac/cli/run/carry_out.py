@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -32,8 +33,12 @@ def run_in_real_time(
     schedule: Schedule,
     style: FigureOptions,
     process: EngineProcess | None,
+    first: tuple[str, ...],
 ) -> None:
-    """Run on drives, real or simulated, on the real clock, and give what a run gives; `process` computes the world."""
+    """Run on drives, real or simulated, on the real clock, and give what a run gives.
+
+    `process` computes the world; `first` is what --first changed.
+    """
     from ebac.hardware import OpenDevice
     from ebac.simulation import LoopFault
 
@@ -64,7 +69,7 @@ def run_in_real_time(
             changed=bool(schedule.orders),
             process=process,
         )
-    give(result, stem, as_json, style, fault)
+    give(replace(result, first_run=first), stem, as_json, style, fault)
 
 
 def _keep(log: Path | None) -> None:
@@ -76,10 +81,17 @@ def _keep(log: Path | None) -> None:
 
 
 def run_virtual(
-    known: Configuration, stem: Path | None, as_json: bool, style: FigureOptions, *, bus_time: bool
+    known: Configuration,
+    stem: Path | None,
+    as_json: bool,
+    style: FigureOptions,
+    *,
+    bus_time: bool,
+    first: tuple[str, ...],
 ) -> None:
     """Run the same on a virtual clock and give what a run gives."""
-    from ebac import logs
+    from ebac.logs.about import CONFIGURATION_FILE
+    from ebac.logs.files import draft, write_mcap
     from ebac.simulation import LoopFault
 
     log = None if stem is None else stem.with_suffix(".mcap")
@@ -90,10 +102,11 @@ def run_virtual(
         except LoopFault as error:
             fault, trace = error, error.trace
         if log is not None:
-            logs.save(trace, log)
+            with draft(log) as file:
+                write_mcap(trace, file, files={CONFIGURATION_FILE: known.text})
             _keep(log)
         result = results.Result.of_virtual(known, trace, log, fault)
-    give(result, stem, as_json, style, fault)
+    give(replace(result, first_run=first), stem, as_json, style, fault)
 
 
 def give(

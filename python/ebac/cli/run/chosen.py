@@ -43,6 +43,28 @@ def chosen(
     return made
 
 
+def first_run(
+    known: Configuration, wall: options.WallOptions, engine: str | None
+) -> tuple[Configuration, tuple[str, ...]]:
+    """Return the configuration of --first, and a line for each value that it changes.
+
+    Raises
+    ------
+    ValueError
+        Where other options ask for a virtual world.
+    """
+    from ebac.hardware.first_run import differences
+
+    given = {**vars(wall), "engine_command": engine}
+    asked = [f"--{name.replace('_', '-')}" for name, value in given.items() if value is not None]
+    if asked:
+        raise ValueError(
+            f"{', '.join(asked)}: --first has no virtual world; leave it out, or leave out --first"
+        )
+    first = known.first_run()
+    return first, tuple(differences(known, first))
+
+
 def observer_change(known: Configuration, wanted: bool | None) -> dict[str, Any]:
     """Return the change that turns the observer on or off; one that is configured stays as it is."""
     if wanted is None or wanted == bool(known.observer):

@@ -39,6 +39,7 @@ def can_ask(known: Configuration, yes: bool) -> None:
 
 def confirm(device: OpenDevice, yes: bool, *, stderr: bool) -> None:
     """Show where each axis stands and how far the virtual world is; ask whether that is so, unless `yes`."""
+    from ebac._core import Free
     from ebac.hardware import distances
     from ebac.hardware.axis_positions import check_outside
 
@@ -48,12 +49,13 @@ def confirm(device: OpenDevice, yes: bool, *, stderr: bool) -> None:
     known = device.configuration
     positions.show(found, distances(known, found), stderr=stderr)
     check_outside(known, found, known.environment)
-    output.console(stderr=stderr).print(
-        f"After {known.seconds:g} s every force fades within {known.ramp_down:g} s (run.ramp_down): who still presses "
-        "then falls through the wall, so release the handle before.",
-        soft_wrap=True,
-        markup=False,
-    )
+    if not isinstance(known.environment, Free):
+        output.console(stderr=stderr).print(
+            f"After {known.seconds:g} s every force fades within {known.ramp_down:g} s (run.ramp_down): who still "
+            "presses then falls through the wall, so release the handle before.",
+            soft_wrap=True,
+            markup=False,
+        )
     if not device.confirmed:
         sure("The motors get power. Is the handle where this says?", yes)
         device.confirm_zero()

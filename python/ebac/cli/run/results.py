@@ -66,6 +66,8 @@ class Result:
         Whether parameters changed during the run.
     engine : Served or None
         How the engine served the run; None without one.
+    first_run : tuple of str
+        What --first changed, a line for each value; empty without it.
     """
 
     configuration: Configuration
@@ -82,6 +84,7 @@ class Result:
     virtual: bool = False
     changed: bool = False
     engine: Served | None = None
+    first_run: tuple[str, ...] = ()
 
     @classmethod
     def of_virtual(
@@ -171,6 +174,7 @@ class Result:
             times=None if self.times is None else asdict(self.times),
             fault=self.fault,
             changed=self.changed,
+            first_run=list(self.first_run),
             engine=None if self.engine is None else self.engine.row(),
             **self.report.row(),
         )

@@ -11,7 +11,7 @@ from ebac.cli import options, output
 from ebac.cli.drive.options import Yes, telling
 from ebac.cli.files import PANEL, FigureOptions
 from ebac.cli.run import carry_out, engine
-from ebac.cli.run.chosen import chosen
+from ebac.cli.run.chosen import chosen, first_run
 from ebac.cli.run.confirm import can_ask, names_its_drives
 from ebac.cli.run.names import free_stem, leave
 
@@ -47,6 +47,13 @@ def run(
             help="With --virtual: model the time that frames take on the bus, or deliver each one at once.",
         ),
     ] = True,
+    first: Annotated[
+        bool,
+        typer.Option(
+            "--first",
+            help="First run of a device: in free air, with at most 0.1 A and 1 m/s. The file stays as it is.",
+        ),
+    ] = False,
     law: Annotated[
         str | None, options.one_law(default="as configured", own=options.COMPILED)
     ] = None,
@@ -130,6 +137,11 @@ def run(
     virtual CAN interface if there is one (`ip link add vcan0 type vcan`), otherwise in a thread of this process.
     Everything else is the same as on hardware.
 
+    With `--first` the run has no virtual world, no force loop (`kp` and `kd` of the law are 0) and at most 0.1 A
+    (`limits.peak_current`, `limits.continuous_current`) and 1 m/s (`limits.speed`), or the limits of the file where
+    these are lower. All else is as configured. What differs is printed and stands in the log; `--virtual` and
+    `--simulated` try it without hardware.
+
     **Examples**
 
     * `ebac demo joystick`, then `ebac run joystick.toml --simulated`: ten seconds at the wall, without hardware.
@@ -138,6 +150,8 @@ def run(
       there and may end by fault 13 or 14.
 
     * `ebac run joystick.toml --virtual`: the same on a virtual clock, as fast as the machine computes.
+
+    * `ebac run joystick.toml --virtual --first`: what the first run on a device will be.
 
     * `ebac run joystick.toml --simulated --observer`: the same wall at the estimated state, from encoder and force.
 
@@ -161,10 +175,11 @@ def run(
     style.check()
     with output.refusing(), telling():
         schedule = Schedule.parse(at or [])
-        known = engine.with_engine(
-            chosen(configuration, law, seconds, rate, observer, wall, person),
-            engine_command, wall, schedule,
-        )  # fmt: skip
+        known = chosen(configuration, law, seconds, rate, observer, wall, person)
+        changed: tuple[str, ...] = ()
+        if first:
+            known, changed = first_run(known, wall, engine_command)
+        known = engine.with_engine(known, engine_command, wall, schedule)
         if virtual and known.engine:
             raise ValueError(
                 "--virtual: the engine is a program in real time; run it with --simulated, or leave out the engine"
@@ -177,6 +192,8 @@ def run(
     if beyond_rating:
         for _, text in rating.beyond_rating(known):
             output.note(f"{text}; --beyond-rating allows it: the motor may burn")
+    for line in changed:
+        output.console(stderr=as_json).print(f"First run, {line}", soft_wrap=True, markup=False)
     folder = None if no_files else out or (None if as_json else DEFAULT_OUT)
     stem = free_stem(folder)
     shown = output.console(stderr=True).is_terminal if live is None else live
@@ -185,12 +202,12 @@ def run(
             if not beyond_rating:
                 with output.refusing():
                     rating.check_rating(known)
-            carry_out.run_virtual(known, stem, as_json, style, bus_time=bus_time)
+            carry_out.run_virtual(known, stem, as_json, style, bus_time=bus_time, first=changed)
         else:
             how = {"simulate": simulated, "detached": detached, "beyond_rating": beyond_rating}
             with engine.started(known) as (with_world, process):
                 carry_out.run_in_real_time(
-                    with_world, how, yes, stem, shown and not as_json, as_json, schedule, style, process
+                    with_world, how, yes, stem, shown and not as_json, as_json, schedule, style, process, changed,
                 )  # fmt: skip
     finally:
         if stem is not None:
