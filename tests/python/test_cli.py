@@ -709,11 +709,24 @@ def test_all_that_is_of_another_motor_is_listed_with_the_way_to_change_it(own_mo
         "bus.drives: the built-in joystick and the device are for different motors.",
         "nodes 1, 2: motor.torque_constant = 0.0538 N m/A, the device motor.torque_constant = 0.0255 N m/A; nodes 1, "
         "2: limits.rated_torque = 0.053 N m, the device motor.rated_torque = 0.03 N m.",
-        "`ebac drive profile joystick > my-network.toml` and `ebac drive profile copley-accelnet > "
-        "my-drive.toml` write them to files",
-        'profile = "my-drive.toml" in the network file, and drives = "my-network.toml" in [bus]',
+        "`ebac drive profile joystick --motor FILE > my-network.toml` writes the drives for the motor of FILE, then "
+        'give drives = "my-network.toml" in [bus]',
     ):
         assert part in refused
+    words = ["drive", "profile", "joystick", "--motor", str(own_motor)]
+    made = CliRunner().invoke(app, words)
+    assert made.exit_code == 0, made.output
+    noted = " ".join(made.stderr.split())
+    assert "does not give device.encoder.counts_per_turn, so 1024 counts of the device" in noted
+    Path("my-network.toml").write_text(made.stdout, encoding="utf-8")
+    text = own_motor.read_text(encoding="utf-8")
+    own_motor.write_text(text.replace('"joystick" ', '"my-network.toml" '), encoding="utf-8")
+    ran = CliRunner().invoke(
+        app, ["run", str(own_motor), "--virtual", "--seconds", "0.2", "--no-files"]
+    )
+    assert ran.exit_code == 0, ran.output
+    again = CliRunner().invoke(app, words)
+    assert again.stdout == made.stdout, "also where the file names drives of its own"
 
 
 def test_the_specs_of_a_file_that_is_not_there_are_refused_as_those_of_a_scenario() -> None:

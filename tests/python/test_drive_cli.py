@@ -332,6 +332,25 @@ def test_what_cannot_be_is_told_in_one_sentence(words: list[str], message: str) 
     assert "Traceback" not in result.output
 
 
+def test_a_profile_for_a_motor_needs_its_name_and_a_file_of_a_device(
+    drive: Run, tmp_path: Path
+) -> None:
+    file = tmp_path / "device.toml"
+    file.write_text(
+        "[device]\npreset = 'reference'\n[device.motor]\ntorque_constant = 0.0255\nrated_torque = 0.03\n"
+        "[device.encoder]\ncounts_per_turn = 2000\n"
+    )
+    made = drive("profile", "elmo-gold", "--motor", str(file), "--json")
+    (row,) = made["rows"]
+    assert row["about"].endswith("with the motor of device.toml")
+    assert "max_current = 4.704" in row["text"]
+    unnamed = drive("profile", "--motor", str(file), code=2)
+    assert "give the NAME of the profile" in " ".join(unnamed.stderr.split())
+    file.write_text("[device.motor]\ntorque_constant = 25.5\n")
+    wrong = drive("profile", "joystick", "--motor", str(file), code=2)
+    assert "limits.rated_current = 0.002 A" in " ".join(wrong.stderr.split())
+
+
 def test_simulate_serves_until_its_time_is_over() -> None:
     words = ["drive", "simulate", "--interface", "virtual", "--channel", "sim", "--seconds", "0.2"]
     result = CliRunner().invoke(app, words)

@@ -10,6 +10,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+import ebac
 from ebac import drives
 from ebac._util.toml_lines import line_of
 from ebac.drives.load import BITRATES
@@ -541,3 +542,106 @@ def test_a_small_motor_is_held_in_the_units_of_the_drives_own_object(
 def test_a_key_that_gives_no_number_is_refused(line: str, message: str) -> None:
     with pytest.raises(drives.ProfileError, match=rf"mine.toml, line 4: .*{message}"):
         derived(line)
+
+
+# --- the motor of a device ---
+
+
+def own_motor(**changes: float) -> ebac.Device:
+    """A motor of 25.5 mN m/A and 30 mN m, and an encoder of 500 lines."""
+    motor = {"torque_constant": 0.0255, "rated_torque": 0.030, "stall_current": 10.0, **changes}
+    device = ebac.Device()
+    return device.replace(
+        motor=device.motor.replace(**motor), encoder=device.encoder.replace(counts_per_turn=2000)
+    )
+
+
+OWN = {
+    "motor.torque_constant": 0.0255,
+    "motor.continuous_torque": 0.030,
+    "motor.peak_torque": 0.120,
+    "motor.counts_per_turn": 2000,
+    "limits.rated_torque": 0.030,
+    "limits.rated_current": 1.176,
+    "limits.max_torque": 0.120,
+    "limits.max_current": 4.704,
+}
+
+
+@pytest.mark.parametrize("name", [n for n in drives.builtin() if n != "trinamic-tmcm"])
+def test_a_profile_for_a_motor_differs_by_the_keys_of_the_motor(name: str, tmp_path: Path) -> None:
+    text = drives.profile_for(name, own_motor(), file="mine.toml")
+    assert "RE 30" not in text
+    about = text.splitlines()[[one[:5] for one in text.splitlines()].index("about")]
+    assert about.endswith(', with the motor of mine.toml"')
+    file = tmp_path / "made.toml"
+    file.write_text(text, encoding="utf-8")
+    nodes = () if "[[node]]" in text else (1,)
+    before, after = drives.load(name, nodes=nodes), drives.load(file, nodes=nodes)
+    for was, now in zip(before.nodes, after.nodes, strict=True):
+        assert now.profile.pdos == was.profile.pdos
+        for key, value in now.profile.values.items():
+            if key in OWN:
+                assert value == pytest.approx(OWN[key], rel=1e-3), key
+            else:
+                assert value == was.profile.values[key], key
+
+
+def test_a_drive_that_computes_its_rated_torque_gets_that_of_its_current() -> None:
+    made = read_profile(
+        Source(name="mine.toml", text=drives.profile_for("maxon-epos4", own_motor()))
+    )
+    assert made.values["limits.rated_torque"] == pytest.approx(1.176 * 0.0255)
+    raw = {one.object.key: one.value for one in made.objects}
+    assert raw[(0x6076, 0)] == 29988
+
+
+def test_comments_of_a_profile_for_a_motor_are_true() -> None:
+    device = own_motor()
+    text = drives.profile_for("copley-accelnet", device.replace(drive=ebac.Drive(peak_ratio=2.5)))
+    assert "peak_torque = 0.075        # N m, 2.5 times rated\n" in text
+    assert "four" not in text
+    assert "42.4 N" not in text
+
+
+@pytest.mark.parametrize(
+    ("name", "motor", "message"),
+    [
+        (
+            "copley-accelnet",
+            {"rated_current": 5.0},
+            "torque_constant = 1.176 A, but rated_current = 5 A: should agree within a factor of 2",
+        ),
+        (
+            "joystick",
+            {"stall_current": 1.0},
+            "torque_constant = 1.176 A, but device.motor.stall_current = 1 A and device.drive.peak_ratio = 4 allow a "
+            "peak of 1 A",
+        ),
+        (
+            "trinamic-tmcm",
+            {},
+            "torque_constant = 1.176 A, but limits.rated_current of trinamic-tmcm = 1 A, the current that this drive "
+            "counts its torques in",
+        ),
+        (
+            "copley-accelnet",
+            {"rated_torque": 0.0304},
+            "limits.rated_torque = 0.0304 N m: the drive holds 30 raw units instead of 30.4",
+        ),
+        ("copley", {}, "name copley: no such name"),
+    ],
+)
+def test_a_motor_that_contradicts_itself_or_the_drive_is_refused(
+    name: str, motor: dict[str, float], message: str
+) -> None:
+    with pytest.raises(drives.ProfileError) as caught:
+        drives.profile_for(name, own_motor(**motor))
+    assert message in str(caught.value)
+
+
+def test_a_drive_that_counts_in_a_current_takes_a_motor_that_is_rated_so() -> None:
+    text = drives.profile_for("trinamic-tmcm", own_motor(rated_torque=0.0255))
+    made = read_profile(Source(name="mine.toml", text=text))
+    assert made.values["limits.rated_torque"] == pytest.approx(0.0255)
+    assert made.values["limits.max_current"] == pytest.approx(4.0)

@@ -7,13 +7,12 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ebac._core import Linear
+from ebac._util.rated_current import LOOK, RATIO, contradiction
 from ebac.cli import output
 
 if TYPE_CHECKING:
     from ebac._core import Device
 
-#: The current of the data sheet and the one that follows from torques differ by this factor at most.
-FACTOR = 2.0
 #: What handles and their motors have; a number beyond is possible.
 CURRENT, FORCE, MASS = (0.05, 50.0), (0.1, 1e3), (1e-3, 20.0)
 #: Coarsest count of an encoder at the handle [m] that is usual.
@@ -49,18 +48,12 @@ def tell_change(option: str, before: Device, after: Device) -> None:
 def doubts(device: Device) -> list[str]:
     """Return a sentence for each number that is doubtful: its value, what is usual, and where to look."""
     motor = device.motor
-    current, given = motor.current(motor.rated_torque), motor.rated_current
-    ratio = "device.motor: rated_torque / torque_constant"
-    look = "rated_torque is in N m (mN m x 1e-3), torque_constant in N m/A (mN m/A x 1e-3)"
+    current = motor.current(motor.rated_torque)
     found = []
-    # A file need not have a rated current: that of the reference says nothing of another motor.
-    if given != type(motor)().rated_current and not given / FACTOR <= current <= given * FACTOR:
-        found.append(
-            f"{ratio} = {current:.4g} A, but rated_current = {given:.4g} A: should agree within a factor of "
-            f"{FACTOR:g}; {look}"
-        )
+    if wrong := contradiction(motor):
+        found.append(wrong)
     elif not CURRENT[0] <= current <= CURRENT[1]:
-        found.append(f"{ratio} = {current:.4g} A: {_usual(CURRENT, 'A')}; {look}")
+        found.append(f"{RATIO} = {current:.4g} A: {_usual(CURRENT, 'A')}; {LOOK}")
     if not FORCE[0] <= device.peak_force <= FORCE[1]:
         found.append(
             f"device: peak force at the handle = {device.peak_force:.4g} N: {_usual(FORCE, 'N')}; rated_torque is in "

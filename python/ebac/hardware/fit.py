@@ -85,23 +85,23 @@ def other_motor(device: Device, drives: Network) -> str:
 
 
 def _from_files(drives: Network) -> str:
-    """Return how what comes with the package is changed: in a file; "" where all of it is in files."""
+    """Return how what comes with the package is written for another motor; "" where all of it is in files."""
+    network = drives.name.removeprefix(BUILT_IN)
+    if network != drives.name:
+        return (
+            f"; `ebac drive profile {network} --motor FILE > my-network.toml` writes the drives for the motor of FILE, "
+            'then give drives = "my-network.toml" in [bus]'
+        )
     profiles = sorted({node.profile.name for node in drives.nodes} & set(builtin()))
     if not profiles:
         return ""
     files = ["my-drive.toml"] if len(profiles) == 1 else [f"my-{name}.toml" for name in profiles]
-    steps = [
-        f"`ebac drive profile {name} > {file}`" for name, file in zip(profiles, files, strict=True)
-    ]
-    named = [f'profile = "{file}"' for file in files]
-    network = drives.name.removeprefix(BUILT_IN)
-    if network == drives.name:
-        return f", here one that comes with ebac: {' and '.join(steps)}, and {' and '.join(named)} in {drives.name}"
-    steps = [f"`ebac drive profile {network} > my-network.toml`", *steps]
-    return (
-        f", here those that come with ebac: {' and '.join(steps)} write them to files; give your motor in the profile, "
-        f'{" and ".join(named)} in the network file, and drives = "my-network.toml" in [bus]'
+    steps = " and ".join(
+        f"`ebac drive profile {name} --motor FILE > {file}`"
+        for name, file in zip(profiles, files, strict=True)
     )
+    named = " and ".join(f'profile = "{file}"' for file in files)
+    return f"; {steps} writes it for the motor of FILE, then give {named} in {drives.name}"
 
 
 def _maybe_scenario(source: Source) -> str:

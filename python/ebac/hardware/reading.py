@@ -85,7 +85,7 @@ def read(source: Source, *, device_alone: bool = False) -> dict[str, Any]:
     known(source, (), TABLES)
     values: dict[str, Any] = {"name": source.name, "text": source.text}
     values |= _bus(source)
-    values["device"] = on_its_preset(source, ("device",), presets.device, "joystick")
+    values["device"] = read_device(source)
     axes = values["device"].axes
     values["signs"] = _signs(source, ("signs",), axes) or Signs()
     values["simulated_signs"] = _signs(source, ("simulated", "signs"), axes)
@@ -108,6 +108,18 @@ def read(source: Source, *, device_alone: bool = False) -> dict[str, Any]:
     values["simulated_bus"] = _simulated_bus(source, values)
     check_fit(source, values, device_alone=device_alone)
     return values
+
+
+def read_device(source: Source) -> Device:
+    """Return the device of a configuration, whatever its drives are set up for.
+
+    Raises
+    ------
+    ProfileError
+        For what cannot be, with file and line.
+    """
+    made: Device = on_its_preset(source, ("device",), presets.device, "joystick")
+    return made
 
 
 def _refuse_without_heading(source: Source) -> None:

@@ -2,13 +2,20 @@
 
 from __future__ import annotations
 
-from typing import Annotated
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from ebac._util.arguments import unknown
-from ebac.cli import output
-from ebac.cli.drive.options import profiles
+from ebac.cli import doubtful_device, output, setting
+from ebac.cli.drive.options import profiles, telling
+
+if TYPE_CHECKING:
+    from ebac._core import Device
+
+#: What a profile takes from a file at least.
+_OF_FILE = (("motor", "torque_constant"), ("motor", "rated_torque"), ("encoder", "counts_per_turn"))
 
 
 def profile(
@@ -20,9 +27,20 @@ def profile(
             autocompletion=profiles,
         ),
     ] = None,
+    motor: Annotated[
+        Path | None,
+        typer.Option(
+            help="Configuration or scenario whose device.motor, device.encoder and device.drive.peak_ratio it is for.",
+            show_default="the paper's motor",
+        ),
+    ] = None,
     as_json: output.AsJson = False,
 ) -> None:
     """Print a drive profile or network file that comes with ebac, to start your own from.
+
+    With `--motor` the keys that describe the motor are those of a device: torque constant, continuous and peak
+    torque, counts per turn, rated and largest torque and current. In a network file they stand beside the profile of
+    each node. Numbers that contradict each other, or that the drive cannot hold, are refused.
 
     A profile says what a drive is to be set to; a network file which drives are on a bus, and the profile of each. For
     a drive that is not in the list start from generic-cia402: replace its limits by those of your motor, and compare
@@ -36,13 +54,23 @@ def profile(
     * `ebac drive profile maxon-epos4 > my-drive.toml`
 
     * `ebac drive profile joystick > my-network.toml`: a network file with two drives.
+
+    * `ebac demo joystick`, then `ebac drive profile joystick --motor joystick.toml`: the same for the motor of a file.
     """
+    from ebac.drives import profile_for
     from ebac.drives.profile import builtin, read_source
+    from ebac.drives.toml_positions import Source
 
     names = builtin()
     if name is not None and name not in names:
         output.fail(unknown(f"NAME {name}", name, names, "profile or network file"))
+    if motor is not None and name is None:
+        output.fail(f"--motor {motor}: give the NAME of the profile or network file to print")
     found = {one: read_source(one) for one in names if name in (None, one)}
+    if motor is not None and name is not None:
+        with output.refusing(), telling():
+            text = profile_for(name, _device(motor), file=motor.name)
+        found[name] = Source(name=name, text=text)
     rows = [
         {
             "name": one,
@@ -61,3 +89,29 @@ def profile(
         for row in rows:
             grid.add_row(row["name"], row["kind"], row["about"])
         output.show(grid)
+
+
+def _device(file: Path) -> Device:
+    """Return the device of a configuration or scenario; a note names the numbers that are not in the file."""
+    from ebac._util.file_kinds import CONFIGURATION, kind_of
+    from ebac._util.text_file import read_text
+    from ebac.drives.toml_positions import Source
+    from ebac.hardware.reading import read_device
+
+    source = Source(name=str(file), text=read_text(file))
+    if kind_of(source.table) == CONFIGURATION:
+        device = read_device(source)
+        doubtful_device.tell(file, device)
+    else:
+        device = setting.base_scenario(file).device
+    table = source.table.get("device", {})
+    left = [(part, key) for part, key in _OF_FILE if key not in table.get(part, {})]
+    if 0 < len(left) < len(_OF_FILE):
+        for part, key in left:
+            made = getattr(device, part)
+            unit = next(one.unit for one in made.fields() if one.name == key)
+            output.note(
+                f"{file}: does not give device.{part}.{key}, so {getattr(made, key):g} {unit} of the device from which "
+                "[device] starts is taken: give that of your motor"
+            )
+    return device
