@@ -1,16 +1,31 @@
 """Signs of motors and encoders: found on simulated drives that are wired wrongly, and written into the file."""
 
 import json
+import time
+from collections.abc import Callable, Iterator
+from itertools import count
 from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import pytest
 from typer.testing import CliRunner
 
 import ebac
+from ebac._core import DriveWiring, LoopbackJoystick, SharedHandTarget
+from ebac.can.channels import resting_joystick, standing
 from ebac.cli import app
 from ebac.cli.drive.signs import show
-from ebac.hardware import Configuration, Signs, find_signs
+from ebac.hardware import (
+    AxisSigns,
+    Configuration,
+    PositionError,
+    Signs,
+    axis_positions,
+    find_encoder_signs,
+    find_signs,
+)
 from ebac.hardware.find_signs import judged
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
@@ -179,3 +194,178 @@ def test_a_device_wired_as_configured_runs_as_any() -> None:
     assert known.signs.against(known.simulated_signs) == Signs()
     assert known.signs.against(Signs(motor=(1, 1))) == Signs(motor=(-1, 1))
     assert ebac.hardware.Signs is Signs
+
+
+# --- without a force sensor: pushed by hand ---
+
+#: How the drives of `pushed` are wired.
+MOTOR, ENCODER = (-1, 1), (1, -1)
+Push = Callable[[float, float], None]
+_numbers = count()
+
+
+@pytest.fixture
+def pushed(tmp_path: Path) -> Iterator[tuple[Path, Push]]:
+    """A configuration without a force sensor, and a function that moves the hand to a place [m]."""
+    path = wired(tmp_path, list(MOTOR), list(ENCODER), sensor=False)
+    channel = f"signs-{next(_numbers)}"
+    text = path.read_text(encoding="utf-8")
+    for before, after in (
+        ('"socketcan"', '"ebac"'), ('"can0"', f'"{channel}"'), ('"verify"', '"apply"'),
+    ):  # fmt: skip
+        text = text.replace(before, after, 1)
+    path.write_text(text[: text.index("[simulated.signs]")], encoding="utf-8")
+    known, aim = Configuration.load(path), SharedHandTarget()
+
+    def nodes(hub: Any) -> LoopbackJoystick:
+        wiring = DriveWiring(motor=list(MOTOR), encoder=list(ENCODER))
+        return LoopbackJoystick(hub, resting_joystick().setup(), wiring=wiring, aim=aim)
+
+    def push(x: float, y: float) -> None:
+        aim.post([x, y, 0.0])
+        there = time.monotonic() + 60
+        while time.monotonic() < there:
+            at = [s * p.position_m for s, p in zip(ENCODER, axis_positions(known), strict=True)]
+            if np.allclose(at, [x, y], atol=5e-4):
+                return
+            time.sleep(0.01)
+        raise AssertionError(f"the simulated hand never came to {x}, {y} m")
+
+    with standing(channel, nodes):
+        yield path, push
+
+
+def test_a_handle_pushed_along_each_axis_shows_the_signs_of_the_encoders(
+    pushed: tuple[Path, Push], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Whatever the file says of them; no drive is written to."""
+    path, push = pushed
+    known, asked = Configuration.load(path), list[str]()
+    monkeypatch.setattr(ebac.drives.Drive, "write", None)
+
+    def ask(request: str) -> None:
+        push(*[(0.01, 0.0), (0.01, 0.01)][len(asked)])
+        asked.append(request)
+
+    assert find_encoder_signs(known, ask) == ENCODER
+    assert [one[:56] for one in asked] == [
+        "Push the handle towards +x, along axis 0 (node 1), by ab",
+        "Push the handle towards +y, along axis 1 (node 2), by ab",
+    ]
+    asked.clear()
+    push(0.0, 0.0)
+    wrong = known.replace(signs=Signs(motor=(1, 1), encoder=(-1, -1)))
+    assert find_encoder_signs(wrong, ask) == ENCODER
+
+
+@pytest.mark.parametrize(
+    ("to", "message"),
+    [
+        ((0.0, 0.0), r"axis 0 \(node 1\) moved by .0.00 mm: must be at least 2 mm; push the handle farther"),
+        ((0.003, 0.01), r"axis 1 \(node 2\) moved by -\d+.\d\d mm, farther than axis 0 .* wrong order in the network"),
+    ],
+)  # fmt: skip
+def test_a_handle_that_goes_elsewhere_shows_no_sign(
+    pushed: tuple[Path, Push], to: tuple[float, float], message: str
+) -> None:
+    path, push = pushed
+    with pytest.raises(PositionError, match=message):
+        find_encoder_signs(Configuration.load(path), lambda request: push(*to))
+
+
+@pytest.mark.parametrize(
+    ("moved", "right", "found"),
+    [
+        (-1, 1, (1, 1, "right")),
+        (1, 1, (-1, 1, "motor wrong")),
+        (1, -1, (1, -1, "encoder wrong")),
+        (-1, -1, (-1, -1, "motor and encoder wrong")),
+    ],
+)
+def test_with_the_sign_of_the_encoder_known_that_of_the_motor_is_sure(
+    moved: int, right: int, found: tuple[int, int, str]
+) -> None:
+    pushes = np.array([[moved * 4e-3, 0.0], [moved * 4e-3, 0.0]])
+    ones = Signs().of_all(1)
+    row = judged(0, 1, ones, pushes, ebac.Device(), 0.1, sensor=False, right=right)
+    assert (row.motor, row.encoder, row.remark) == found
+
+
+def test_known_signs_of_encoders_must_be_signs_of_all() -> None:
+    for wrong in ([1], [1, 2]):
+        with pytest.raises(ValueError, match="must be a list of 1 or -1 for each of the 2 axes"):
+            find_signs(Configuration.from_toml(""), encoder=wrong)
+
+
+@pytest.fixture
+def answers(monkeypatch: pytest.MonkeyPatch, pushed: tuple[Path, Push]) -> list[str]:
+    """Answer the questions of the command as a person does who pushes the handle; give the questions."""
+    _, push = pushed
+    places = [(0.01, 0.0), (0.01, 0.01), (0.0, 0.0)]
+    asked = list[str]()
+
+    def confirm(question: str, **_: Any) -> bool:
+        push(*places[len(asked)])
+        asked.append(question)
+        return True
+
+    here = SimpleNamespace(stdin=SimpleNamespace(isatty=lambda: True))
+    monkeypatch.setattr("ebac.cli.drive.options.sys", here)
+    monkeypatch.setattr("ebac.cli.drive.options.typer.confirm", confirm)
+    return asked
+
+
+def test_the_command_asks_for_the_pushes_before_it_gives_power(
+    pushed: tuple[Path, Push], answers: list[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    given = []
+
+    def found(known: Configuration, **how: Any) -> list[AxisSigns]:
+        given.append(how["encoder"])
+        pushes = np.array([[4e-3, 0.0], [4e-3, 0.0]])
+        ones = Signs().of_all(2)
+        rights = zip((1, 2), how["encoder"] or (None, None), strict=True)
+        return [
+            judged(i, node, ones, pushes, known.device, 0.1, sensor=False, right=right)
+            for i, (node, right) in enumerate(rights)
+        ]
+
+    monkeypatch.setattr("ebac.hardware.find_signs", found)
+    done = CliRunner().invoke(app, ["drive", "signs", str(pushed[0])])
+    assert done.exit_code == 1, done.output
+    assert [one.partition(" ")[0] for one in answers] == ["Push", "Push", "The"]
+    assert "motors of axis 0 (node 1), axis 1 (node 2) get power" in answers[2]
+    assert given == [ENCODER]
+    said = " ".join(done.stdout.split())
+    assert "--write writes motor = [-1, 1], encoder = [1, -1] into [signs] of the file" in said
+    done = CliRunner().invoke(app, ["drive", "signs", str(pushed[0]), "--yes"])
+    assert len(answers) == 3, "--yes asks nothing"
+    assert given == [ENCODER, None]
+    assert "by the encoder alone" in " ".join(done.stdout.split())
+
+
+def test_a_handle_that_was_not_pushed_gets_no_power(
+    pushed: tuple[Path, Push], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    here = SimpleNamespace(stdin=SimpleNamespace(isatty=lambda: True))
+    monkeypatch.setattr("ebac.cli.drive.options.sys", here)
+    done = CliRunner().invoke(app, ["drive", "signs", str(pushed[0])], input="y\n")
+    assert done.exit_code == 1
+    assert "must be at least 2 mm" in " ".join(done.output.split())
+    assert "get power" not in done.output
+    monkeypatch.undo()
+    done = CliRunner().invoke(app, ["drive", "signs", str(pushed[0])])
+    assert done.exit_code == 2
+    assert "add --yes" in " ".join(done.output.split())
+
+
+@pytest.mark.real_time
+@pytest.mark.slow
+def test_every_wrong_sign_is_found_without_a_sensor(
+    pushed: tuple[Path, Push], answers: list[str]
+) -> None:
+    path, _ = pushed
+    done = CliRunner().invoke(app, ["drive", "signs", str(path), "--write"])
+    assert done.exit_code == 0, done.output
+    assert len(answers) == 3
+    assert Configuration.load(path).signs == Signs(motor=MOTOR, encoder=ENCODER)

@@ -129,7 +129,7 @@ def _values(profile: Profile, device: Device) -> Mapping[str, float]:
         "limits.max_current": ratio * rated,
     }
     return {
-        key: float(f"{value:.6g}") if isinstance(value, float) else value
+        key: value if BY_NAME[key].whole else float(f"{value:.6g}")
         for key, value in values.items()
         if key in profile.values
     }

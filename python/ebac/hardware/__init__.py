@@ -10,6 +10,7 @@ from ebac.hardware.axis_positions import AxisPosition, PositionError, axis_posit
 from ebac.hardware.backends import Backend, virtual_can
 from ebac.hardware.configuration import Configuration
 from ebac.hardware.device import OpenDevice
+from ebac.hardware.encoder_signs import find_encoder_signs
 from ebac.hardware.find_signs import AxisSigns, find_signs
 from ebac.hardware.interrupts import Terminated
 from ebac.hardware.law import designed
@@ -37,6 +38,7 @@ __all__ = [
     "axis_positions",
     "designed",
     "distances",
+    "find_encoder_signs",
     "find_signs",
     "times",
     "under_the_law",

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -97,12 +97,14 @@ def find_signs(
     *,
     simulate: bool = False,
     current: float = 0.1,
+    encoder: Sequence[int] | None = None,
     look: Callable[[Run], None] = lambda run: None,
 ) -> list[AxisSigns]:
     """Push every axis in both directions with a small current, and return the correct signs.
 
     The handle is free or held loosely. The force sensor can distinguish a reversed motor from a reversed encoder only
-    if a hand holds against the motor. Otherwise, if the two signs do not match, the motor is reported as wrong.
+    if a hand holds against the motor. Otherwise the signs of the encoders must be known, as of `find_encoder_signs`; if
+    they are not, and the two signs do not match, the motor is reported as wrong.
 
     Parameters
     ----------
@@ -112,13 +114,15 @@ def find_signs(
         Whether simulated drives stand in for the real ones.
     current : float
         Current of every push [A], 0.02 to 0.3.
+    encoder : sequence of int, optional
+        The correct sign of each encoder, 1 or -1, where it is known.
     look : callable
         Called repeatedly while the rows are read; it may stop the run, which ends the test.
 
     Raises
     ------
     ValueError
-        For a current out of range.
+        For a current out of range, or encoder signs that are not 1 or -1 for each axis.
     RuntimeError
         When the test was stopped before its end.
     LoopFault, DriveError
@@ -129,6 +133,9 @@ def find_signs(
             f"current = {current:g} A: must lie in [{LEAST_CURRENT}, {MOST_CURRENT}] A"
         )
     axes = known.device.axes
+    right: Sequence[int | None] = (None,) * axes
+    if encoder is not None:
+        right = Signs.from_table({"encoder": list(encoder)}, axes).encoder
     tested = gentle(known, current)
     signs = known.signs.of_all(axes)
     seconds = 2.0 + axes * 2 * (PUSH + PAUSE) * 3
@@ -145,7 +152,16 @@ def find_signs(
         run.finish()
     sensor = known.sensor is not None
     return [
-        judged(axis, node.id, signs, np.array(both), known.device, current, sensor=sensor)
+        judged(
+            axis,
+            node.id,
+            signs,
+            np.array(both),
+            known.device,
+            current,
+            sensor=sensor,
+            right=right[axis],
+        )
         for axis, (node, both) in enumerate(zip(known.drives.nodes, pushes, strict=True))
     ]
 
@@ -206,8 +222,12 @@ def judged(
     current: float,
     *,
     sensor: bool,
+    right: int | None = None,
 ) -> AxisSigns:
-    """Return the signs of an axis from way [m] and reaction force [N] of a push each way [A], shape (2, 2)."""
+    """Return the signs of an axis from way [m] and reaction force [N] of a push each way [A], shape (2, 2).
+
+    `right` is the correct sign of its encoder, where it is known.
+    """
     force = device.force(current)
     ways, reaction = pushes[:, 0], pushes[:, 1]
     motor, encoder = signs.motor[axis], signs.encoder[axis]
@@ -231,13 +251,17 @@ def judged(
         remark = "moved the same way under both forces: something else pushes; let go of the handle"
         return AxisSigns(**shown, motor=None, encoder=None, remark=remark)
     together = bool(ways[0] < 0)
-    motor_right = bool(reaction[0] > 0) if held else together
-    encoder_right = together == motor_right
+    if right is not None:
+        encoder_right = right == encoder
+        motor_right = together == encoder_right
+    else:
+        motor_right = bool(reaction[0] > 0) if held else together
+        encoder_right = together == motor_right
     wrong = [
         name for name, right in (("motor", motor_right), ("encoder", encoder_right)) if not right
     ]
     remark = f"{' and '.join(wrong)} wrong" if wrong else "right"
-    if not held:
+    if not held and right is None:
         remark += "; by the encoder alone: where x grows to the wrong side, turn motor and encoder"
     return AxisSigns(
         **shown,

@@ -34,7 +34,11 @@ def signs(
     **The motors get power and the handle moves by some millimetres.** Each axis is pushed to and fro with a tenth of
     an ampere that is ramped up slowly; any key stops it. Put the handle in the middle and let go of it. With a force
     sensor, hold it loosely instead: the force of your hand against the motor distinguishes a wrong motor from a wrong
-    encoder. Without a force sensor, the motor is taken to be wrong when the two contradict each other.
+    encoder.
+
+    Without a force sensor the command first asks you to push the handle towards +x, +y, +z by hand, while no motor has
+    power, and reads from the encoders which of them are wrong. With `--yes` and `--simulated` it does not, and takes
+    the motor to be wrong when the two contradict each other.
 
     Exit code 1 when a sign is wrong and was not written, or an axis did not move.
 
@@ -45,7 +49,7 @@ def signs(
     * `ebac drive signs my-joystick.toml --write`
     """
     from ebac.cli.run.any_key import any_key
-    from ebac.hardware import Configuration, Signs, find_signs
+    from ebac.hardware import Configuration, Signs, find_encoder_signs, find_signs
     from ebac.hardware.axis_positions import axis_name
     from ebac.hardware.lateness import explained
     from ebac.hardware.toml_table import rewrite
@@ -53,6 +57,9 @@ def signs(
 
     with telling():
         known = Configuration.load(configuration)
+        by_hand = None
+        if known.sensor is None and not (simulated or yes):
+            by_hand = find_encoder_signs(known, lambda request: sure(f"{request} Done?", yes))
     if not simulated:
         nodes = [node.id for node in known.drives.nodes]
         names = ", ".join(axis_name(axis, node) for axis, node in enumerate(nodes))
@@ -62,7 +69,7 @@ def signs(
         )
     try:
         with telling(), any_key() as key:
-            rows = find_signs(known, simulate=simulated, current=current, look=key)
+            rows = find_signs(known, simulate=simulated, current=current, encoder=by_hand, look=key)
     except LoopFault as error:
         output.fail(f"{explained(error)}; nothing was written", code=output.FAILED)
     except typer.Exit:  # a RuntimeError of its own, of an end that was reported
@@ -84,7 +91,9 @@ def signs(
         if written:
             output.say(f"Written to {configuration}: motor = {motor}, encoder = {encoder}.")
         elif found and not all(row.right for row in rows):
-            output.say("Nothing was written; --write writes the signs into the file.")
+            output.say(
+                f"Nothing was written; --write writes motor = {motor}, encoder = {encoder} into [signs] of the file."
+            )
     if not found or not (written or all(row.right for row in rows)):
         raise typer.Exit(output.FAILED)
 
