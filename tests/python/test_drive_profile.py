@@ -21,6 +21,7 @@ from ebac.drives.profile_fields import KEYS
 from ebac.drives.settings import groups, writes
 from ebac.drives.stall import hold_time
 from ebac.drives.toml_positions import Source
+from ebac.hardware import profile_for
 
 COPLEY = read_source("copley-accelnet").text
 
@@ -570,7 +571,7 @@ OWN = {
 
 @pytest.mark.parametrize("name", [n for n in drives.builtin() if n != "trinamic-tmcm"])
 def test_a_profile_for_a_motor_differs_by_the_keys_of_the_motor(name: str, tmp_path: Path) -> None:
-    text = drives.profile_for(name, own_motor(), file="mine.toml")
+    text = profile_for(name, own_motor(), file="mine.toml")
     assert "RE 30" not in text
     about = text.splitlines()[[one[:5] for one in text.splitlines()].index("about")]
     assert about.endswith(', with the motor of mine.toml"')
@@ -588,9 +589,7 @@ def test_a_profile_for_a_motor_differs_by_the_keys_of_the_motor(name: str, tmp_p
 
 
 def test_a_drive_that_computes_its_rated_torque_gets_that_of_its_current() -> None:
-    made = read_profile(
-        Source(name="mine.toml", text=drives.profile_for("maxon-epos4", own_motor()))
-    )
+    made = read_profile(Source(name="mine.toml", text=profile_for("maxon-epos4", own_motor())))
     assert made.values["limits.rated_torque"] == pytest.approx(1.176 * 0.0255)
     raw = {one.object.key: one.value for one in made.objects}
     assert raw[(0x6076, 0)] == 29988
@@ -598,7 +597,7 @@ def test_a_drive_that_computes_its_rated_torque_gets_that_of_its_current() -> No
 
 def test_comments_of_a_profile_for_a_motor_are_true() -> None:
     device = own_motor()
-    text = drives.profile_for("copley-accelnet", device.replace(drive=ebac.Drive(peak_ratio=2.5)))
+    text = profile_for("copley-accelnet", device.replace(drive=ebac.Drive(peak_ratio=2.5)))
     assert "peak_torque = 0.075        # N m, 2.5 times rated\n" in text
     assert "four" not in text
     assert "42.4 N" not in text
@@ -636,12 +635,12 @@ def test_a_motor_that_contradicts_itself_or_the_drive_is_refused(
     name: str, motor: dict[str, float], message: str
 ) -> None:
     with pytest.raises(drives.ProfileError) as caught:
-        drives.profile_for(name, own_motor(**motor))
+        profile_for(name, own_motor(**motor))
     assert message in str(caught.value)
 
 
 def test_a_drive_that_counts_in_a_current_takes_a_motor_that_is_rated_so() -> None:
-    text = drives.profile_for("trinamic-tmcm", own_motor(rated_torque=0.0255))
+    text = profile_for("trinamic-tmcm", own_motor(rated_torque=0.0255))
     made = read_profile(Source(name="mine.toml", text=text))
     assert made.values["limits.rated_torque"] == pytest.approx(0.0255)
     assert made.values["limits.max_current"] == pytest.approx(4.0)

@@ -34,7 +34,6 @@ from ebac.drives.errors import (
 )
 from ebac.drives.frame_length import exact_bits, frame_bits
 from ebac.drives.load import BusLoad, Traffic, bus_load
-from ebac.drives.motor_profile import profile_for
 from ebac.drives.network import Network, Node, load
 from ebac.drives.objects import Object, find
 from ebac.drives.pdo import Pdo
@@ -99,7 +98,6 @@ __all__ = [
     "parse_eds",
     "path",
     "plan",
-    "profile_for",
     "read_eds",
     "restore",
     "verify",

@@ -14,6 +14,7 @@ from ebac.hardware.encoder_signs import find_encoder_signs
 from ebac.hardware.find_signs import AxisSigns, find_signs
 from ebac.hardware.interrupts import Terminated
 from ebac.hardware.law import designed
+from ebac.hardware.motor_profile import profile_for
 from ebac.hardware.report import Report, Times, times
 from ebac.hardware.run import Run
 from ebac.hardware.signs import Signs
@@ -40,6 +41,7 @@ __all__ = [
     "distances",
     "find_encoder_signs",
     "find_signs",
+    "profile_for",
     "times",
     "under_the_law",
     "virtual_can",

@@ -57,7 +57,6 @@ def profile(
 
     * `ebac demo joystick`, then `ebac drive profile joystick --motor joystick.toml`: the same for the motor of a file.
     """
-    from ebac.drives import profile_for
     from ebac.drives.profile import builtin, read_source
     from ebac.drives.toml_positions import Source
 
@@ -68,6 +67,8 @@ def profile(
         output.fail(f"--motor {motor}: give the NAME of the profile or network file to print")
     found = {one: read_source(one) for one in names if name in (None, one)}
     if motor is not None and name is not None:
+        from ebac.hardware import profile_for
+
         with output.refusing(), telling():
             text = profile_for(name, _device(motor), file=motor.name)
         found[name] = Source(name=name, text=text)

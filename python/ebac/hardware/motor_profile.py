@@ -5,17 +5,14 @@ from __future__ import annotations
 import json
 import re
 from collections.abc import Iterator, Mapping
-from typing import TYPE_CHECKING
 
+from ebac._core import Device
 from ebac._util.arguments import unknown
 from ebac._util.rated_current import RATIO, contradiction
 from ebac.drives.errors import ProfileError
 from ebac.drives.profile import Profile, builtin, read_profile, read_source
 from ebac.drives.profile_fields import BY_NAME
 from ebac.drives.toml_positions import Source
-
-if TYPE_CHECKING:
-    from ebac._core import Device
 
 #: Share by which the rated current of a drive that counts in a current of its own may differ from the motor's.
 _SAME = 0.01
