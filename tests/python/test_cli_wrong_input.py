@@ -35,6 +35,7 @@ NEEDS = {
     "log repair": ["run.mcap"],
     "log plot": ["run.npz"],
     "drive enable": ["--node", "1", "--yes"],
+    "drive profile": ["joystick"],
     "drive timing": ["joystick"],
     "jitter": ["--seconds", "0.01", "--alone"],
     "sensor bias": ["--host", "127.0.0.1"],

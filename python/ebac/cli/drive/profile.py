@@ -99,7 +99,11 @@ def _device(file: Path) -> Device:
     from ebac.drives.toml_positions import Source
     from ebac.hardware.reading import read_device
 
-    source = Source(name=str(file), text=read_text(file))
+    try:
+        text = read_text(file)
+    except ValueError as error:
+        raise ValueError(f"--motor {file}: {error}") from None
+    source = Source(name=str(file), text=text)
     if kind_of(source.table) == CONFIGURATION:
         device = read_device(source)
         doubtful_device.tell(file, device)
