@@ -75,6 +75,21 @@ def test_lost_rows_are_bridged_and_not_believed(tmp_path: Path) -> None:
     assert any("% of all: the force between is taken" in text for text in less.remarks)
     found = fit_arm(r)
     assert found["K0"].value == pytest.approx(log.truth["K0"], rel=0.01)
+    assert not any("rows are missing" in text for text in found.misses)
+
+
+def test_an_arm_from_a_log_of_which_a_fifth_is_missing_warns_and_names_the_share(
+    tmp_path: Path,
+) -> None:
+    log = recorded(0, level="clean", task="multisine", seconds=4)
+    keep = np.random.default_rng(3).random(len(log.t)) > 0.2
+    keep[[0, -1]] = True
+    file = written(tmp_path, t=log.t[keep], x=log.x[keep], force=log.force[keep])
+    share = load(file).missing
+    assert share == pytest.approx(1 - keep.mean())
+    done = CliRunner().invoke(app, ["identify", "arm", str(file)])
+    warned = f"log.npz: {100 * share:.0f} % of the rows are missing, more than 10 %: the intervals are too narrow"
+    assert warned in " ".join(done.output.split())
 
 
 def test_the_encoder_step_is_seen_beside_empty_rows(tmp_path: Path) -> None:

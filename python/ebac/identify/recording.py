@@ -201,6 +201,11 @@ class Recording:
         """Length [s]."""
         return float(self.t[-1] - self.t[0])
 
+    @property
+    def missing(self) -> float:
+        """Share of the rows that were lost and are bridged, pauses not among them [1]."""
+        return 0.0 if self.known is None else float((~self.known).mean())
+
     def channels(self) -> dict[str, NDArray[np.float64]]:
         """Return the recorded signals by name, without the times."""
         every = {

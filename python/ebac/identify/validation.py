@@ -13,6 +13,7 @@ from ebac.identify import motor_check
 from ebac.identify.intervals import Z95, loose_inverse, normal_tail
 from ebac.identify.parameters import BEFORE_LEVELS, HAND, kind
 from ebac.identify.plausible import is_hand, without_place
+from ebac.identify.rows import MANY
 
 if TYPE_CHECKING:
     from ebac.identify.recording import Recording
@@ -206,7 +207,9 @@ def misses(result: ArmResult) -> tuple[str, ...]:
     """Return what the model misses, a sentence each; nothing where structure in the errors changes no result."""
     checks = (_explains_little, _tied_to_no_place, _unusual, _late, _coloured)
     found = tuple(sentence for check in checks for sentence in check(result))
-    return found if found or result.nothing_determined else tuple(_far_from_white(result))
+    if not found and not result.nothing_determined:
+        found = tuple(_far_from_white(result))
+    return found + tuple(_rows_missing(result))
 
 
 def _explains_little(result: ArmResult) -> Iterator[str]:
@@ -295,3 +298,13 @@ def _far_from_white(result: ArmResult) -> Iterator[str]:
             "position or a force that was filtered, or read less often, is not in eq. (4). The estimates may be off by "
             "more than their intervals: record position and force as they were read, at one rate."
         )
+
+
+def _rows_missing(result: ArmResult) -> Iterator[str]:
+    """Give of which recordings so many rows are missing that the intervals do not contain the truth."""
+    for r in result.recordings:
+        if r.missing > MANY:
+            yield (
+                f"{r.name}: {100 * r.missing:.0f} % of the rows are missing, more than {100 * MANY:.0f} %: the "
+                "intervals are too narrow. Record every row."
+            )
