@@ -294,12 +294,14 @@ def test_wall_scenario_round_trip() -> None:
 
 
 def test_wall_takes_every_option_into_the_scenario() -> None:
-    words = "--hand arm-hogan --hand-target 0.02 --device joystick --device-noise 0.2 --device-permille --seconds 1"
+    device = "--device joystick --device-noise 0.2 --device-lag 0.003 --device-permille"
+    words = f"--hand arm-hogan --hand-target 0.02 {device} --seconds 1"
     scenario = document("wall", *words.split())["scenario"]
     assert scenario["hand"]["stiffness"] == 568
     assert scenario["hand"]["path"][0]["target"] == 0.02
     assert scenario["device"]["kinematics"]["type"] == "Gimbal"
     assert scenario["device"]["sensor"]["noise"] == 0.2
+    assert scenario["device"]["sensor"]["lag"] == 0.003
     assert scenario["device"]["drive"]["permille"] is True
 
 
@@ -400,6 +402,7 @@ def test_a_fault_is_told_and_its_log_kept(monkeypatch: pytest.MonkeyPatch, tmp_p
         ("wall --hand-damping -1", "--hand-damping = -1 N s/m"),
         ("wall --hand-target 11", "--hand-target = 11 m"),
         ("wall --device-noise -1", "--device-noise = -1 N"),
+        ("wall --device-lag 3", "--device-lag = 3 s: must lie in [0, 0.1] s; 3 ms is 0.003 s"),
         ("wall --device-counts 2 --law ebac", "give more counts per turn, --device-counts"),
         (
             "wall --device-counts 2 --law ebac",

@@ -262,15 +262,16 @@ def test_the_command_prints_the_same_as_json(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.chdir(tmp_path)
-    call = "random-worlds --kind balls,cavity --device gimbal --hands 2 --moving --delay 0 --json"
+    call = "random-worlds --kind balls,cavity --device gimbal --hands 2 --moving --delay 0 --device-lag 0.003 --json"
     answer = CliRunner().invoke(app, call.split())
     assert answer.exit_code == 0, answer.output
     document = json.loads(answer.stdout)
     assert document["moving"] is True
-    assert (document["noise_N"], document["seed"]) == (0.03, 1)
+    assert (document["noise_N"], document["lag_s"], document["seed"]) == (0.03, 0.003, 1)
     found = random_worlds(
-        kinds=["balls", "cavity"], devices=["gimbal"], hands=2, moving=True, delays=[0]
+        kinds=["balls", "cavity"], devices=["gimbal"], hands=2, moving=True, delays=[0], lag=0.003
     )
+    assert found.scenario(found.rows[0]).device.sensor.lag == 0.003
     assert document["rows"] == found.table()
     assert not list(tmp_path.iterdir())
 
@@ -284,6 +285,7 @@ def test_the_command_prints_the_same_as_json(
         ("--stiffness -1", "--stiffness = -1 N/m: must lie in [0, 1e+07] N/m"),
         ("--delay 9", "--delay = 9 samples: must lie in [0, 8] samples"),
         ("--device-noise -1", "--device-noise = -1 N: must lie in [0, 10] N"),
+        ("--device-lag 3", "--device-lag = 3 s: must lie in [0, 0.1] s"),
         ("--hands 0", "--hands = 0: must lie in [1, 100000]"),
         ("--law best", "--law best"),
     ],

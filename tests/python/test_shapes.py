@@ -82,7 +82,7 @@ def test_the_command_says_the_same_as_json(tmp_path: Path) -> None:
     assert answer.exit_code == 0, answer.output
     document = json.loads(answer.stdout)
     direct, ours = document["rows"]
-    assert document["noise_N"] == 0
+    assert (document["noise_N"], document["lag_s"]) == (0, 0.8e-3)
     assert (direct["still"], ours["quiet"], ours["exact"], ours["passive"]) == (
         False, True, True, True,
     )  # fmt: skip
@@ -94,9 +94,11 @@ def test_the_command_says_the_same_as_json(tmp_path: Path) -> None:
     assert "swings" in answer.output
     assert "good" in answer.output
     assert "the force sensor without noise" in " ".join(answer.output.split())
-    table = [*table[:-1], str(tmp_path / "u"), "--device-noise", "0.03"]
+    table = [*table[:-1], str(tmp_path / "u"), "--device-noise", "0.03", "--device-lag", "0.003"]
     answer = CliRunner().invoke(app, table)
-    assert "the force sensor with 0.03 N of noise" in " ".join(answer.output.split())
+    assert "the force sensor with 0.03 N of noise, its filter 3 ms" in " ".join(
+        answer.output.split()
+    )
 
 
 @pytest.mark.parametrize(
@@ -107,6 +109,7 @@ def test_the_command_says_the_same_as_json(tmp_path: Path) -> None:
         ("--stiffness -1", "stiffness = -1 N/m: must lie in [0, 1e+07] N/m"),
         ("--law best", "--law best"),
         ("--device-noise -1", "--device-noise = -1 N: must lie in [0, 100] N"),
+        ("--device-lag 3", "--device-lag = 3 s: must lie in [0, 0.1] s"),
     ],
 )
 def test_what_cannot_be_is_refused(

@@ -116,6 +116,7 @@ def test_the_option_takes_the_sensor_away() -> None:
     ("words", "answer"),
     [
         ("--device-noise 0.03", "--device-noise: the device has no force sensor that could have noise"),
+        ("--device-lag 0.003", "--device-lag: the device has no force sensor that could have lag; leave it out"),
         ("--observer", "--observer: the observer needs a force sensor, and the device has none"),
         ("--observer-every-law", "--observer-every-law: the observer needs a force sensor, and the device has none"),
         ("--observer-learns", "--observer-learns: the observer needs a force sensor, and"),

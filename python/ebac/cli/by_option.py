@@ -22,6 +22,7 @@ OPTIONS = {
     "MinimumJerk.target": "--hand-target",
     "Tapping.target": "--hand-target",
     "ForceSensor.noise": "--device-noise",
+    "ForceSensor.lag": "--device-lag",
     "Mechanics.coulomb": "--device-coulomb",
     "Compensation.friction": "--device-friction-compensation",
     "Encoder.counts_per_turn": "--device-counts",

@@ -100,6 +100,10 @@ DeviceNoise: TypeAlias = Annotated[
     float | None,
     option(text="Noise of the force sensor, standard deviation [N]", default="0", panel=DEVICE),
 ]
+DeviceLag: TypeAlias = Annotated[
+    float | None,
+    option(text="Time constant of the force sensor's filter [s]", default="0.0008", panel=DEVICE),
+]
 Rate: TypeAlias = Annotated[
     float | None, option(text="Ticks per second [Hz]", default="1000", panel=RUN)
 ]
@@ -220,6 +224,7 @@ class DeviceOptions:
 
     device: DeviceName = None
     device_noise: DeviceNoise = None
+    device_lag: DeviceLag = None
     device_sensor: Annotated[
         bool | None,
         option(

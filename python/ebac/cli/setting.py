@@ -187,6 +187,7 @@ def choose_hand(
 #: Options that change a part of the device: the part, and what of it.
 DEVICE_PARTS = {
     "device_noise": ("sensor", "noise"),
+    "device_lag": ("sensor", "lag"),
     "device_sensor": ("sensor", "fitted"),
     "device_coulomb": ("mechanics", "coulomb"),
     "device_friction_compensation": ("compensation", "friction"),
@@ -200,10 +201,13 @@ def choose_device(device: Device, options: Mapping[str, Any]) -> Device:
     name = options.get("device")
     chosen = known_device(name) if name is not None else device
     fitted = options.get("device_sensor")
-    if not (chosen.sensor.fitted if fitted is None else fitted) and options.get("device_noise"):
-        raise ValueError(
-            "--device-noise: the device has no force sensor that could have noise; leave it out"
-        )
+    if not (chosen.sensor.fitted if fitted is None else fitted):
+        for option in ("device_noise", "device_lag"):
+            if options.get(option):
+                _, has = DEVICE_PARTS[option]
+                raise ValueError(
+                    f"--{option.replace('_', '-')}: the device has no force sensor that could have {has}; leave it out"
+                )
     for option, (part, field) in DEVICE_PARTS.items():
         if options.get(option) is not None:
             before = chosen

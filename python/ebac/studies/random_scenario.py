@@ -19,6 +19,8 @@ DEVICES: dict[str, Device] = {
     "3-axes": Device(kinematics=Linear(axes=3)),
     "gimbal": Device(kinematics=Gimbal()),
 }
+#: Time constant of the filter of a force sensor of which nothing else is said [s].
+LAG = ForceSensor().lag
 #: Length of a run [s].
 SECONDS = 4.0
 #: Largest way of a body that moves, to either side [m], and its frequencies [Hz].
@@ -36,9 +38,10 @@ def random_scenario(
     delay: int = 1,
     moving: bool = False,
     noise: float = 0.03,
+    lag: float = LAG,
     seed: int = 1,
 ) -> Scenario:
-    """Return hand `index` with its own world. Stiffness, delay, noise and `moving` change nothing else.
+    """Return hand `index` with its own world. Stiffness, delay, noise, lag and `moving` change nothing else.
 
     Each axis of the target swings by 1 to 15 mm at 0.3 to 3 Hz about -10 to 20 mm; the hand has 0.02 to 1 kg, 2 to
     20 N s/m and 100 to 1000 N/m, mass and stiffness even in their logarithm. One world in three has a friction of 0.4.
@@ -59,6 +62,8 @@ def random_scenario(
         Whether each body swings, by up to 4 mm at 0.5 to 3 Hz in a direction of its own, from where it stands still.
     noise : float
         Of the force sensor, standard deviation [N], [0, 100]; laws with a `force_noise` take 10 at most.
+    lag : float
+        Time constant of its filter [s], [0, 0.1].
     seed : int
         Of all hands, at least 0.
 
@@ -83,7 +88,7 @@ def random_scenario(
         for solid, motion in zip(solids, motions if moving else [Swing()] * len(solids), strict=True)
     ]  # fmt: skip
     return Scenario(
-        device=base.replace(sensor=ForceSensor(noise=noise)),
+        device=base.replace(sensor=ForceSensor(noise=noise, lag=lag)),
         hand=hand,
         environment=World(*bodies),
         timing=Timing(delay=delay),

@@ -21,7 +21,7 @@ from ebac.laws.tuned_laws import on_its_observer
 from ebac.metrics.energy_drawn import drawn
 from ebac.scenario import Scenario
 from ebac.studies.hand_search import every_row
-from ebac.studies.random_scenario import DEVICES, random_scenario
+from ebac.studies.random_scenario import DEVICES, LAG, random_scenario
 from ebac.studies.random_worlds_result import HELD_BACK, HandRun, RandomWorldRow, RandomWorlds
 from ebac.studies.sweeps.run import Laws, name_laws
 from ebac.studies.world_kinds import KINDS
@@ -43,6 +43,7 @@ def random_worlds(
     moving: bool = False,
     hands: int = 200,
     noise: float = 0.03,
+    lag: float = LAG,
     seed: int = 1,
     threads: int | None = None,
     progress: Progress | None = None,
@@ -70,6 +71,8 @@ def random_worlds(
         For each row, [1, 100000].
     noise : float
         Of the force sensor, standard deviation [N], [0, 10].
+    lag : float
+        Time constant of its filter [s], [0, 0.1].
     seed : int
         Of all hands, [0, 2^31).
     threads : int, optional
@@ -110,7 +113,7 @@ def random_worlds(
     workers = thread_count(threads)
     chosen = name_laws(laws)
     cells = list(product(kinds, devices, stiffnesses, delays))
-    makers = [_maker(cell, moving=moving, noise=noise, seed=seed) for cell in cells]
+    makers = [_maker(cell, moving=moving, noise=noise, lag=lag, seed=seed) for cell in cells]
     firsts = [make(0) for make in makers]  # refuse what cannot be, before any work
     made = [
         {name: design(law, first.device, first.known_timing) for name, law in chosen.items()}
@@ -135,6 +138,7 @@ def random_worlds(
         rows=tuple(rows),
         moving=moving,
         noise_N=noise,
+        lag_s=lag,
         seed=seed,
         laws=chosen,
         drawn_J=tuple(np.array([run.drawn_J for run in runs]) for runs in hand_by_hand),

@@ -81,8 +81,8 @@ class RandomWorlds:
         For each kind, device, stiffness and delay: each law.
     moving : bool
         Whether each body swung in a direction of its own.
-    noise_N : float
-        Noise of the force sensor, standard deviation.
+    noise_N, lag_s : float
+        Noise of the force sensor, standard deviation, and the time constant of its filter.
     seed : int
         Of all hands.
     laws : dict of str to law
@@ -95,6 +95,7 @@ class RandomWorlds:
     rows: tuple[RandomWorldRow, ...]
     moving: bool
     noise_N: float
+    lag_s: float
     seed: int
     laws: dict[str, AnyLaw]
     drawn_J: tuple[NDArray[np.float64], ...] = field(compare=False)
@@ -148,6 +149,7 @@ class RandomWorlds:
             delay=row.delay_samples,
             moving=self.moving,
             noise=self.noise_N,
+            lag=self.lag_s,
             seed=self.seed,
         )
 

@@ -18,6 +18,7 @@ from ebac.metrics.world_rest import world_rest
 from ebac.scenario import Scenario
 from ebac.simulation import LoopFault, simulate
 from ebac.studies.measures import SPARE
+from ebac.studies.random_scenario import LAG
 from ebac.worlds import PRESETS, World, preset
 from ebac.worlds.grid import cache_folder, needed
 
@@ -94,14 +95,15 @@ class Shapes:
         Sample time and delay.
     missing : tuple of str
         What was left out, and why.
-    noise_N : float
-        Noise of the force sensor, standard deviation.
+    noise_N, lag_s : float
+        Noise of the force sensor, standard deviation, and the time constant of its filter.
     """
 
     rows: tuple[ShapeRow, ...]
     timing: Timing
     missing: tuple[str, ...] = ()
     noise_N: float = 0.0
+    lag_s: float = LAG
 
     def table(self) -> list[dict[str, Any]]:
         """Return the rows as dictionaries, units in the keys."""
@@ -116,6 +118,7 @@ def shapes(
     devices: Sequence[str] = DEVICES,
     timing: Timing | None = None,
     noise: float = 0.0,
+    lag: float = LAG,
     progress: Callable[[int, int], None] | None = None,
 ) -> Shapes:
     """Simulate each law in each world, at each stiffness, on each device: a hand of 300 N/m presses, 4 s.
@@ -135,13 +138,15 @@ def shapes(
         Sample time and delay; default 1 ms and one sample.
     noise : float
         Of the force sensor, standard deviation [N], [0, 100]; by default it has none.
+    lag : float
+        Time constant of its filter [s], [0, 0.1].
     progress : callable, optional
         Called with runs done and all.
 
     Raises
     ------
     ValueError
-        For an unknown world, a stiffness or noise out of its range, or nothing to compare.
+        For an unknown world, a stiffness, noise or lag out of its range, or nothing to compare.
     KeyError
         For an unknown device.
     ImportError
@@ -153,7 +158,7 @@ def shapes(
         if isinstance(given, str) or not len(given):
             raise ValueError(f"{name} = {given!r}: must be a sequence of one at least")
     clock = Timing() if timing is None else timing
-    chosen = {name: _noisy(presets.device(name), noise) for name in devices}
+    chosen = {name: _sensed(presets.device(name), noise, lag) for name in devices}
     places, missing = _scenarios(worlds, stiffnesses, chosen, clock)
     rows: list[ShapeRow] = []
     for known, scenario in places:
@@ -161,11 +166,11 @@ def shapes(
             rows.append(_row(known, scenario, law))
             if progress is not None:
                 progress(len(rows), len(places) * len(laws))
-    return Shapes(rows=tuple(rows), timing=clock, missing=missing, noise_N=noise)
+    return Shapes(rows=tuple(rows), timing=clock, missing=missing, noise_N=noise, lag_s=lag)
 
 
-def _noisy(device: Device, noise: float) -> Device:
-    return device.replace(sensor=device.sensor.replace(noise=noise))
+def _sensed(device: Device, noise: float, lag: float) -> Device:
+    return device.replace(sensor=device.sensor.replace(noise=noise, lag=lag))
 
 
 def _scenarios(

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from ebac._util.file_names import file_name
-from ebac.cli import by_name, completion, interrupts, options, output
+from ebac.cli import by_name, completion, interrupts, options, output, setting
 from ebac.cli.files import ResultOptions
 
 if TYPE_CHECKING:
@@ -73,6 +73,7 @@ def random_worlds(
             rich_help_panel=options.DEVICE,
         ),
     ] = 0.03,
+    device_lag: options.DeviceLag = None,
     delay: Annotated[
         list[int] | None,
         options.option(
@@ -126,6 +127,7 @@ def random_worlds(
                 moving=moving,
                 hands=hands,
                 noise=device_noise,
+                **setting.given(lag=device_lag),
                 seed=seed,
                 threads=threads,
                 progress=progress,
@@ -154,7 +156,8 @@ def _names(option: str, given: list[str] | None, known: Iterable[str]) -> list[s
 
 def _document(found: RandomWorlds) -> str:
     return output.document(
-        "random-worlds", found.table(), moving=found.moving, noise_N=found.noise_N, seed=found.seed
+        "random-worlds", found.table(), moving=found.moving, noise_N=found.noise_N,
+        lag_s=found.lag_s, seed=found.seed
     )  # fmt: skip
 
 
@@ -192,7 +195,8 @@ def _show(found: RandomWorlds) -> None:
         output.say(_sentence(total), style="bold")
     bodies = "each body swings in its own way" if found.moving else "the bodies stand still"
     output.say(
-        f"Simulated, 4 s a hand; {bodies}; the force sensor with {found.noise_N:g} N of noise; seed {found.seed}. "
+        f"Simulated, 4 s a hand; {bodies}; the force sensor with {found.noise_N:g} N of noise, its filter "
+        f"{1e3 * found.lag_s:g} ms; seed {found.seed}. "
         "Touched: hands that met a body. Held back: hands for which the guard let less than half of the command "
         "through for longer than 0.1 s (law.starved), and the longest such time of all hands. Drawn: by the hand that "
         "drew most, beyond all that it had put in and what moving bodies did."

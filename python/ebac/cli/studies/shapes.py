@@ -46,6 +46,7 @@ def shapes(
         ),
     ] = None,
     device_noise: options.DeviceNoise = None,
+    device_lag: options.DeviceLag = None,
     rate: options.Rate = None,
     delay: options.Delay = None,
     as_json: output.AsJson = False,
@@ -87,7 +88,7 @@ def shapes(
                 stiffnesses=list(dict.fromkeys(stiffness)) if stiffness else STIFFNESSES,
                 devices=[name.lower() for name in devices],
                 timing=timing,
-                noise=0.0 if device_noise is None else device_noise,
+                **setting.given(noise=device_noise, lag=device_lag),
                 progress=progress,
             )
     to.report(
@@ -97,7 +98,9 @@ def shapes(
 
 
 def _document(found: Shapes) -> str:
-    return output.document("shapes", found.table(), missing=found.missing, noise_N=found.noise_N)
+    return output.document(
+        "shapes", found.table(), missing=found.missing, noise_N=found.noise_N, lag_s=found.lag_s
+    )
 
 
 def _fill(draft: Path, found: Shapes, to: ResultOptions) -> None:
@@ -127,9 +130,9 @@ def _show(found: Shapes) -> None:
     output.show(grid)
     noise = f"with {found.noise_N:g} N of noise" if found.noise_N > 0 else "without noise"
     output.say(
-        f"Simulated, the force sensor {noise}. good: quiet and exact on every axis, at most 1 mJ given out. Otherwise "
-        "the worst of: swing peak to peak; vibration in detection thresholds; how far from a balance of hand and "
-        "world; energy given out."
+        f"Simulated, the force sensor {noise}, its filter {1e3 * found.lag_s:g} ms. good: quiet and exact on every "
+        "axis, at most 1 mJ given out. Otherwise the worst of: swing peak to peak; vibration in detection thresholds; "
+        "how far from a balance of hand and world; energy given out."
     )
     for sentence in found.missing:
         output.say(sentence, style="bold")
