@@ -14,6 +14,7 @@ from typer.testing import CliRunner
 
 import ebac
 from ebac.cli import app
+from ebac.cli.studies.stiffest import _show as show
 from ebac.plot import plot_stiffest
 from ebac.studies import Stiffest, stiffest
 from ebac.studies.stiffest import LADDER
@@ -129,6 +130,7 @@ def test_where_no_ideal_time_is_known_in_time_is_not_judged(found: Stiffest) -> 
     assert [row.law for row in untimed.rows] == ["tca-damped", "direct"]
     assert all(row.good_in_time_N_per_m is None for row in untimed.rows)
     assert all(row["good_in_time"] is None for row in untimed.walls())
+    assert {row["late"] for row in json.loads(untimed.to_json())["rows"]} == {None}
 
 
 def test_the_default_is_every_law_and_the_whole_ladder() -> None:
@@ -176,7 +178,11 @@ def test_a_result_is_saved_printed_and_drawn(found: Stiffest, tmp_path: Path) ->
         assert [row["law"] for row in csv.DictReader(file)] == [row.law for row in found.rows]
     found.save(tmp_path / "found.json")
     document = json.loads((tmp_path / "found.json").read_text())
-    assert document["rows"] == [row.row() for row in found.rows]
+    for row, wrote in zip(found.rows, document["rows"], strict=True):
+        law = list(found.study.laws).index(row.law)
+        good, in_time = found.counts["good"][law], found.counts["good_in_time"][law]
+        hands = {"not_good": (4 - good).tolist(), "late": (good - in_time).tolist()}
+        assert wrote == row.row() | hands
     assert document["walls"] == found.walls()
     assert (document["hands"], document["share"]) == (4, 1.0)
     with pytest.raises(ValueError, match=r"\.json"):
@@ -223,11 +229,29 @@ def test_the_command_prints_rows_in_si_units() -> None:
 
 def test_the_command_says_of_one_wall_that_it_is_one() -> None:
     text = " ".join(command(*FEW[:-1], "1000", "--law", "direct").split())
-    assert "The one wall tried, 1 kN/m, holds where it is named; none: it fails." in text
-    text = " ".join(command(*FEW, "--law", "direct").split())
     assert (
-        "all softer ones of the 2 walls tried hold, too; none: the softest, 1 kN/m, fails." in text
+        "The one wall tried, 1 kN/m, holds where it is named; none (N): it fails, by N hands."
+        in text
     )
+    text = " ".join(command(*FEW, "--law", "direct").split())
+    assert "2 walls tried hold, too; none (N): the softest, 1 kN/m, fails, by N hands." in text
+
+
+def test_the_command_prints_how_many_hands_are_not_good_or_late_at_each_wall(
+    found: Stiffest, capsys: pytest.CaptureFixture[str]
+) -> None:
+    both, last = [[4, 4, 0], [4, 3, 3]], [[1, 4, 0], [4, 2, 3]]
+    show(counted(found, exact_and_still=both, good=both, good_in_time=last))
+    text = capsys.readouterr().out
+    assert "Of 4 hands at each wall [kN/m]: how many are not good, + good but late." in text
+    rows = [" ".join(line.split()) for line in text.splitlines()]
+    assert "direct 0 + 3 0 4" in rows
+    assert "tca-damped 0 1 + 1 1" in rows
+    assert "none (3)" in text
+    show(counted(found, exact_and_still=both, good=both))
+    text = capsys.readouterr().out
+    assert "how many are not good." in text
+    assert "direct 0 0 4" in [" ".join(line.split()) for line in text.splitlines()]
 
 
 def test_the_command_has_the_delay_and_wall_damping_of_its_options(tmp_path: Path) -> None:

@@ -101,6 +101,17 @@ class Stiffest:
         """The number of hands for which a wall must hold."""
         return ceil(self.share * self.hands - _ROUNDING)
 
+    @property
+    def not_good(self) -> NDArray[np.int64]:
+        """Hands that are not good, shape (laws, walls)."""
+        return self.hands - self.counts["good"]
+
+    @property
+    def late(self) -> NDArray[np.int64] | None:
+        """Hands that are good, but late, shape (laws, walls); None where the time at the ideal wall is not known."""
+        in_time = self.counts.get("good_in_time")
+        return None if in_time is None else self.counts["good"] - in_time
+
     def holds(self, criterion: str) -> NDArray[np.bool_]:
         """Return where enough hands meet one of `CRITERIA`, shape (laws, walls); False where it is not known."""
         if criterion not in self.counts:
@@ -200,9 +211,22 @@ class Stiffest:
         return plot_stiffest(self)
 
     def to_json(self) -> str:
-        """Return the JSON document of `ebac stiffest --json`: a row per law, SI units."""
+        """Return the JSON document of `ebac stiffest --json`: a row per law, SI units.
+
+        To the attributes of `StiffestRow` come the lists `not_good` and `late`, a number of hands per wall.
+        """
+        laws, late = list(self.study.laws), self.late
+        rows = [
+            row.row()
+            | {
+                "not_good": self.not_good[i].tolist(),
+                "late": None if late is None else late[i].tolist(),
+            }
+            for row in self.rows
+            for i in [laws.index(row.law)]
+        ]
         return row_files.document(
-            "stiffest", self._table(), hands=self.hands, share=self.share,
+            "stiffest", rows, hands=self.hands, share=self.share,
             stiffnesses_N_per_m=self.stiffnesses.tolist(), walls=self.walls(),
         )  # fmt: skip
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import zip_longest
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -24,7 +25,7 @@ from ebac.cli.studies import short_runs, study_results
 
 if TYPE_CHECKING:
     from ebac.scenario import Scenario
-    from ebac.studies import Stiffest
+    from ebac.studies import Stiffest, StiffestRow
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -174,20 +175,20 @@ def _show(found: Stiffest) -> None:
         "on impact",
     ]
     grid = output.table(headings, numbers=range(1, len(headings)))
-    top = float(found.stiffnesses[-1])
     for row in found.rows:
         grid.add_row(
             row.law,
-            _kilo(row.exact_and_still_N_per_m, top),
-            _kilo(row.good_N_per_m, top),
+            _kilo(found, row, "exact_and_still"),
+            _kilo(found, row, "good"),
             formatting.quantity(row.good_drawn_J, "J"),
             formatting.quantity(row.good_settled_s, "s"),
             formatting.quantity(row.good_impact_share, "share"),
-            _kilo(row.good_in_time_N_per_m, top),
+            _kilo(found, row, "good_in_time"),
             formatting.quantity(row.good_in_time_drawn_J, "J"),
             formatting.quantity(row.good_in_time_impact_share, "share"),
         )
     output.show(grid)
+    _show_hands(found)
     _show_again(found)
     _show_exact_only(found)
     _show_next_step(found)
@@ -205,12 +206,33 @@ def _show(found: Stiffest) -> None:
     output.indented("\n".join([device, *others[-2:]]))
 
 
+def _show_hands(found: Stiffest) -> None:
+    """Print how many hands are not good, and how many of the good ones are late, at each wall under each law."""
+    timed = found.late is not None
+    output.say(
+        f"Of {found.hands} hands at each wall [kN/m]: how many are not good{', + good but late' if timed else ''}.",
+        style="bold",
+    )
+    headings = [f"{1e-3 * stiffness:g}" for stiffness in found.stiffnesses]
+    grid = output.table(["law", *headings], numbers=range(1, 1 + len(headings)))
+    laws = list(found.study.laws)
+    for row in found.rows:
+        i = laws.index(row.law)
+        late = [f" + {n}" if n else "" for n in found.late[i]] if found.late is not None else []
+        cells = [f"{n}{more}" for n, more in zip_longest(found.not_good[i], late, fillvalue="")]
+        grid.add_row(row.law, *cells)
+    output.show(grid)
+
+
 def _up_to_which(found: Stiffest) -> str:
     """Return what a wall in the table and "none" mean."""
     softest, walls = f"{1e-3 * found.stiffnesses[0]:g} kN/m", len(found.stiffnesses)
     if walls == 1:
-        return f"The one wall tried, {softest}, holds where it is named; none: it fails."
-    return f"Up to which: all softer ones of the {walls} walls tried hold, too; none: the softest, {softest}, fails."
+        return f"The one wall tried, {softest}, holds where it is named; none (N): it fails, by N hands."
+    return (
+        f"Up to which: all softer ones of the {walls} walls tried hold, too; none (N): the softest, {softest}, fails, "
+        "by N hands."
+    )
 
 
 def _show_again(found: Stiffest) -> None:
@@ -250,7 +272,13 @@ def _show_next_step(found: Stiffest) -> None:
         output.say(f"No law is good here. What may change that: {'; '.join(tries)}.")
 
 
-def _kilo(stiffness: float | None, top: float) -> str:
-    if stiffness is None:
+def _kilo(found: Stiffest, row: StiffestRow, criterion: str) -> str:
+    """Return the stiffest wall of a law [kN/m], or how many hands fail already at the softest."""
+    stiffness = getattr(row, f"{criterion}_N_per_m")
+    if stiffness is not None:
+        return f"{1e-3 * stiffness:g}{' or more' if stiffness == found.stiffnesses[-1] else ''}"
+    if criterion not in found.counts:
         return "none"
-    return f"{1e-3 * stiffness:g}{' or more' if stiffness == top else ''}"
+    return (
+        f"none ({found.hands - found.counts[criterion][list(found.study.laws).index(row.law), 0]})"
+    )
