@@ -147,6 +147,28 @@ def test_an_ablation_looks_for_its_parts() -> None:
     assert "nothing can be taken away; name a change" in said
 
 
+def test_its_fields_declare_what_is_shown_and_tuned() -> None:
+    """`ebac laws` showed neither unit nor range, and `ebac tune` refused it."""
+    short = ["-c", "d1K10", "--hands", "1", "--evaluations", "3", "--seconds", "0.5"]
+    refused = run("tune", "mine.py:Damped", *short)
+    assert refused.exit_code == 2
+    assert "Error: Damped.damping = 30: declares no low and no high" in refused.stderr
+    meta = '{"unit": "N s/m", "low": 0, "high": 90, "meaning": "in contact"}'
+    text = MINE.replace("import dataclass", "import dataclass, field")
+    text = text.replace("= 30.0", f"= field(default=30.0, metadata={meta})")
+    Path("declares.py").write_text(text, encoding="utf-8")
+    (row,) = rows("laws", "declares.py:Damped")
+    assert row["parameters"] == [
+        {"name": "damping", "unit": "N s/m", "meaning": "in contact", "type": "float", "default": 30.0,
+         "low": 0, "high": 90, "designed": 30.0}
+    ]  # fmt: skip
+    shown = " ".join(run("laws", "declares.py:Damped").stdout.split())
+    assert "damping 30 30 0 to 90 N s/m in contact" in shown
+    (tuned,) = rows("tune", "declares.py:Damped", *short)
+    assert (tuned["law"], tuned["tried"]) == ("damped", 3)
+    assert set(tuned["changes"]) <= {"damping"}
+
+
 def test_a_search_changes_its_parameters_and_says_how_to_simulate_its_hand_again() -> None:
     command = "worst --law mine.py:Damped --family impact --evaluations 40 --seconds 0.5 --out"
     words = command.split()

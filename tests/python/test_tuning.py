@@ -3,7 +3,7 @@
 import json
 import math
 from collections.abc import Callable
-from dataclasses import replace
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
@@ -31,6 +31,39 @@ ROWS = [(ending, row) for ending, rows in TABLES.items() for row in rows]
 NOISY = ebac.Scenario(device=ebac.Device(sensor=ebac.ForceSensor(noise=0.03)))
 
 
+class NoFields:
+    """The force of the world and no parameter."""
+
+    def step(self, port: ebac.Port) -> float:
+        return port.f_env
+
+    def reset(self) -> None:
+        pass
+
+
+@dataclass
+class Own(NoFields):
+    """A damper in contact."""
+
+    damping: Any = field(default=90.0, metadata={"unit": "N s/m", "low": 1, "high": 100})
+    steps: int = field(default=1, metadata={"low": 0, "high": 3})
+    on: bool = True
+
+    def step(self, port: ebac.Port) -> float:
+        assert isinstance(self.steps, int)
+        return port.f_env + self.damping * port.v if port.f_env > 0 else 0.0
+
+
+@dataclass
+class Bare(NoFields):
+    gain: float = 2.0
+
+
+@dataclass
+class Wordy(NoFields):
+    gain: float = field(default=2.0, metadata={"low": "few", "high": 3})
+
+
 def quick(law: str = "tca-damped", conditions: Any = ("d1K20",), **more: Any) -> Any:
     base = ebac.Scenario(seconds=1.5)
     given = {"training": FEW, "test": FEW, "base": base, "evaluations": 12, "threads": 1, **more}
@@ -50,6 +83,19 @@ def test_the_best_is_no_worse_than_the_design_and_both_are_judged_on_the_test_ha
     assert low <= found.changes["virtual_damping"] <= high
     rows = ebac.study(other, found.variant, ["d1K20"], base=ebac.Scenario(seconds=1.5)).rows
     assert rows[0].good == found.test[0].good
+
+
+def test_a_law_in_python_is_tuned_within_the_ranges_that_its_fields_declare() -> None:
+    base = ebac.Scenario(seconds=0.6)
+    (found,) = quick(Own(), base=base, training=FEW[:1], test=FEW[:1])
+    assert (found.law, found.tried) == ("Own", 12)
+    assert found.changes.keys() == {"damping", "steps"}
+    assert 1 <= found.changes["damping"] <= 100
+    assert found.variant == replace(Own(), **found.changes)
+    assert found.cost < found.default_cost
+    assert "variant" not in found.row()
+    rows = ebac.study(FEW[:1], found.variant, ["d1K20"], base=base).rows
+    assert rows[0].most_drawn_J == found.test[0].most_drawn_J
 
 
 def test_each_delay_is_tuned_for_itself_with_the_same_result_every_time() -> None:
@@ -87,7 +133,19 @@ def test_an_interrupt_keeps_the_best_so_far(monkeypatch: pytest.MonkeyPatch) -> 
     [
         ({"law": "direct"}, "nothing to tune"),
         ({"law": "tca-dampd"}, "did you mean 'tca-damped'"),
-        ({"law": object()}, "search the parameters of your own with ebac.study"),
+        ({"law": object()}, r"is no law: it needs step\(port\) -> float and reset\(\)"),
+        (
+            {"law": Bare()},
+            r"Bare.gain = 2: declares no low and no high, .*write gain: float = field\(default=2, meta",
+        ),
+        ({"law": Bare}, r"Bare is a class: give an instance of it, Bare\(...\)"),
+        ({"law": Bare(), "ranges": {"gain": (2, math.inf)}}, r"gain from 2 to inf: must lie in"),
+        ({"law": Own(), "ranges": {"damping": (2, 101)}}, r"must lie in \[1, 100\] N s/m"),
+        ({"law": Wordy()}, "Wordy.gain: an end of its range = 'few': must be a number"),
+        (
+            {"law": NoFields()},
+            "the law NoFields has no parameters to change: .* put @dataclass above its class",
+        ),
         ({"ranges": {"kq": (0, 1)}}, "kq"),
         ({"ranges": {"kp": (0, 11)}}, r"kp from 0 to 11: must lie in \[0, 10\]"),
         ({"evaluations": 1}, "must be at least 2"),
@@ -161,7 +219,7 @@ def found(**now: Any) -> tuning.Tuned:
         least_energy_J=0.0, most_drawn_J=0.0028, force_swing_N=0.0,
     )  # fmt: skip
     return tuning.Tuned(
-        law="eba", delay=1, observer=False, changes={}, tried=20, cost=0.1, default_cost=0.2,
+        law="eba", variant="eba", delay=1, observer=False, changes={}, tried=20, cost=0.1, default_cost=0.2,
         test=(replace(design, **now),), default=(design,),
     )  # fmt: skip
 

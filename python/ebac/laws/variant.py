@@ -100,9 +100,10 @@ def class_of(law: str | type) -> type[CoreLaw]:
         return LAWS[name]
     if not hasattr(law, "_simulate"):
         name = law.__name__
-        raise TypeError(
-            f"{name} is a class: give an instance of it, {name}(...), or give it a classmethod design(facts, timing)"
+        design = (
+            "" if hasattr(law, "design") else ", or give it a classmethod design(facts, timing)"
         )
+        raise TypeError(f"{name} is a class: give an instance of it, {name}(...){design}")
     return cast("type[CoreLaw]", law)
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import dataclasses
 import inspect
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -96,14 +95,14 @@ def _rows(name: str | None, device: Device, timing: Timing) -> list[dict[str, An
 
 
 def _row(law: Any) -> dict[str, Any]:
-    from ebac.laws.protocols import is_core_law
+    from ebac.laws import law_name
+    from ebac.laws.law_fields import fields_of
 
-    if not is_core_law(law):
-        return _own_row(law)
+    docstring = (inspect.getdoc(type(law)) or "no docstring").partition("\n")[0].rstrip(".")
     return {
-        "law": law.name,
-        "what": law.summary,
-        "passive": law.passive,
+        "law": law_name(law),
+        "what": getattr(law, "summary", docstring),
+        "passive": getattr(law, "passive", False),
         "parameters": [
             {
                 "name": field.name,
@@ -115,32 +114,7 @@ def _row(law: Any) -> dict[str, Any]:
                 "high": field.high,
                 "designed": getattr(law, field.name),
             }
-            for field in law.fields()
-        ],
-    }
-
-
-def _own_row(law: Any) -> dict[str, Any]:
-    """Return what there is to say of a law in Python: the fields of a dataclass, without units and ranges."""
-    from ebac.laws import law_name
-
-    fields = dataclasses.fields(law) if dataclasses.is_dataclass(law) else ()
-    return {
-        "law": law_name(law),
-        "what": (inspect.getdoc(type(law)) or "no docstring").partition("\n")[0].rstrip("."),
-        "passive": False,
-        "parameters": [
-            {
-                "name": field.name,
-                "unit": None,
-                "meaning": "",
-                "type": getattr(field.type, "__name__", str(field.type)),
-                "default": None if field.default is dataclasses.MISSING else field.default,
-                "low": None,
-                "high": None,
-                "designed": getattr(law, field.name),
-            }
-            for field in fields
+            for field in fields_of(law)
         ],
     }
 

@@ -24,7 +24,8 @@ def tune(
     law: Annotated[
         str,
         typer.Argument(
-            help="A law, see `ebac laws`; several separated by commas, `all` for every law with parameters to tune.",
+            help="A law, see `ebac laws`, or of your own in Python, FILE.py:NAME; several separated by commas, `all` "
+            "for every law with parameters to tune.",
             autocompletion=completion.laws,
         ),
     ],
@@ -73,6 +74,9 @@ def tune(
     swing at rest. With --observer-every-law
     the law uses the estimate of the observer, otherwise the encoder. Ctrl-C keeps the best parameters so far.
 
+    Of a law of your own in Python those fields are searched that are numbers. Each declares its range:
+    `damping: float = field(default=30.0, metadata={"unit": "N s/m", "low": 0, "high": 100})`.
+
     The parameters found for the reference device, with 0.03 N of sensor noise, are part of the package under names
     such as `tca-damped-tuned` and, acting on the observer's estimate, `tca-damped-tuned-observer`.
 
@@ -93,18 +97,18 @@ def tune(
     stopped = False
     folder = None if out is None else free_folder(out, force=force)
     with output.refusing():
-        names = by_name.law_names([law], "LAW")
+        laws = by_name.laws([law], "LAW", many=True)
         if law.lower() == "all":
-            names = [name for name in names if name in RANGES]
+            laws = {name: one for name, one in laws.items() if name in RANGES}
         wanted = by_name.condition_names(condition or TUNING_CONDITIONS)
         base = from_options.scenario(device, length)
         replaced.tell(base, wanted)
         training = Operators.sample(hands, HANDS_SEED)
-        for name in names:
+        for name, one in laws.items():
             with output.counting(f"tuning {name}", quiet=as_json) as progress:
                 try:
                     found += search(
-                        name, wanted, training=training, base=base, evaluations=evaluations, seed=seed,
+                        one, wanted, training=training, base=base, evaluations=evaluations, seed=seed,
                         threads=threads, progress=progress,
                     )  # fmt: skip
                 except TuningInterrupted as interrupted:

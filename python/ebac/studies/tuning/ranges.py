@@ -8,9 +8,11 @@ from typing import TypeAlias
 
 import numpy as np
 
+from ebac._core import Field
 from ebac._util.arguments import number, several, unknown_name
 from ebac._util.arrays import Values
-from ebac.laws import LAWS
+from ebac.laws import AnyLaw, law_name
+from ebac.laws.law_fields import PythonField, fields_of
 
 Range: TypeAlias = tuple[float, float]
 
@@ -33,10 +35,12 @@ RANGES: dict[str, dict[str, Range]] = {
 class Ranges:
     """The ranges of a law's parameters as a unit cube; a wide one that begins above 0 is logarithmic."""
 
-    def __init__(self, law: str, ranges: Mapping[str, Range]) -> None:
+    def __init__(self, law: AnyLaw, ranges: Mapping[str, Range]) -> None:
         _check(law, ranges)
         self.ranges = dict(ranges)
-        self.switches = {f.name for f in LAWS[law].fields() if f.kind == "bool"}
+        kinds = {f.name: f.kind for f in fields_of(law)}
+        self.switches = {name for name, kind in kinds.items() if kind == "bool"}
+        self.whole = {name for name, kind in kinds.items() if kind == "int"}
 
     def __len__(self) -> int:
         """Return the number of parameters."""
@@ -52,7 +56,7 @@ class Ranges:
                 value = (
                     low * (high / low) ** share if _wide(low, high) else low + (high - low) * share
                 )
-                found[name] = float(f"{value:.4g}")
+                found[name] = round(value) if name in self.whole else float(f"{value:.4g}")
         return found
 
     def place_of(self, changes: Mapping[str, float | bool]) -> Values:
@@ -69,26 +73,62 @@ class Ranges:
         return np.asarray(np.clip(np.array(shares), 0, 1))
 
 
+def ranges_of(law: AnyLaw) -> Mapping[str, Range]:
+    """Return what is searched of a law where nothing else is asked: of one in Python the ranges that it declares.
+
+    Raises
+    ------
+    ValueError
+        For a numeric field of a law in Python that declares no range.
+    """
+    if isinstance(law, str) or hasattr(law, "_simulate"):
+        return RANGES.get(law_name(law), {})
+    numeric = [f for f in fields_of(law) if type(getattr(law, f.name)) in (int, float)]
+    return {f.name: _declared(law, f) for f in numeric}
+
+
+def _declared(law: AnyLaw, field: Field | PythonField) -> Range:
+    """Return the range that a field declares; ValueError names what is missing."""
+    if field.low is not None and field.high is not None:
+        return field.low, field.high
+    value = getattr(law, field.name)
+    missing = [end for end in ("low", "high") if getattr(field, end) is None]
+    raise ValueError(
+        f"{type(law).__name__}.{field.name} = {value:g}{_unit(field)}: declares no {' and no '.join(missing)}, so that "
+        f"there is no range to search; write {field.name}: {field.kind} = field(default={value:g}, "
+        f"metadata={{'unit': {field.unit or 'UNIT'!r}, 'low': LOW, 'high': HIGH}}), or make it a ClassVar if it is not "
+        "to be tuned"
+    )
+
+
+def _unit(field: Field | PythonField) -> str:
+    return f" {field.unit}" if field.unit not in ("1", None) else ""
+
+
 def _wide(low: float, high: float) -> bool:
     return low > 0 and high >= 10 * low
 
 
-def _check(law: str, ranges: Mapping[str, Range]) -> None:
+def _check(law: AnyLaw, ranges: Mapping[str, Range]) -> None:
+    called = law_name(law)
     if not ranges:
         names = ", ".join(RANGES)
-        raise ValueError(f"law {law!r}: nothing to tune; give ranges, or one of {names}")
-    fields = {f.name: f for f in LAWS[law].fields()}
+        raise ValueError(
+            f"law {called!r}: nothing to tune; give ranges in Python, ebac.tune(..., ranges=...), or one of {names}"
+        )
+    fields = {f.name: f for f in fields_of(law)}
     for name, span in ranges.items():
         if name not in fields:
-            raise unknown_name(f"parameter of {law}", name, fields)
+            raise unknown_name(f"parameter of {called}", name, fields)
         ends = [number(name, value) for value in several(name, span)]
         if len(ends) != 2:
             raise ValueError(f"{name} = {ends}: must be its lowest and highest value, as (0.1, 10)")
         low, high = ends
         field = fields[name]
-        unit = "" if field.unit == "1" else f" {field.unit}"
-        if not field.low <= low < high <= field.high:
+        unit = _unit(field)
+        least = -math.inf if field.low is None else field.low
+        most = math.inf if field.high is None else field.high
+        if not (least <= low < high <= most and math.isfinite(high - low)):
             raise ValueError(
-                f"{name} from {low:g} to {high:g}{unit}: must lie in [{field.low:g}, {field.high:g}]{unit}, the lower "
-                "one first"
+                f"{name} from {low:g} to {high:g}{unit}: must lie in [{least:g}, {most:g}]{unit}, the lower one first"
             )

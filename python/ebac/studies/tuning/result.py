@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from ebac._util.formatting import quantity
-from ebac.laws import Variant
+from ebac.laws import AnyLaw
 from ebac.laws.variant import shown_value
 from ebac.studies.result import Study
 
@@ -61,6 +61,8 @@ class Tuned:
     ----------
     law : str
         Its name.
+    variant : law
+        The law with the parameters found, to be used wherever a law can be.
     delay : int
         Transport delay [samples] of the conditions.
     observer : bool
@@ -76,6 +78,7 @@ class Tuned:
     """
 
     law: str
+    variant: AnyLaw
     delay: int
     observer: bool
     changes: dict[str, float | bool]
@@ -102,14 +105,9 @@ class Tuned:
                 )
         return tuple(found)
 
-    @property
-    def variant(self) -> Variant:
-        """The law with these parameters, to be used wherever a law can be."""
-        return Variant(self.law, self.changes)
-
     def row(self) -> dict[str, Any]:
         """Return the documented row of `ebac tune --json`."""
-        return asdict(self)
+        return {name: value for name, value in asdict(self).items() if name != "variant"}
 
     def __repr__(self) -> str:
         """Return the parameters and how many test hands are good."""

@@ -4,15 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from ebac._util.arguments import require, shown, unknown_name, whole
+from ebac._util.arguments import require, unknown_name, whole
 from ebac._util.progress import Progress
-from ebac.laws import LAWS, AnyLaw, Variant
+from ebac.laws import LAWS, AnyLaw, Variant, changed, law_name
+from ebac.laws.making import checked
 from ebac.operators import Operators
 from ebac.scenario import Scenario
 from ebac.studies.condition import Condition
 from ebac.studies.conditions import conditions as find
 from ebac.studies.study import study
-from ebac.studies.tuning.ranges import RANGES, Range, Ranges
+from ebac.studies.tuning.ranges import Range, Ranges, ranges_of
 from ebac.studies.tuning.result import Tuned, TuningInterrupted, rows_of
 from ebac.studies.tuning.search import Search
 
@@ -23,7 +24,7 @@ HANDS, HANDS_SEED = 24, 14
 
 
 def tune(
-    law: str,
+    law: AnyLaw,
     conditions: Sequence[str | Condition] = TUNING_CONDITIONS,
     *,
     training: Operators | None = None,
@@ -42,8 +43,9 @@ def tune(
 
     Parameters
     ----------
-    law : str
-        A name of `RANGES`, or any law with `ranges`.
+    law : law
+        A name of `RANGES`; a law of your own in Python, an object of a dataclass, whose numeric fields have `low` and
+        `high` in their metadata; or any law as `simulate` takes it, with `ranges`.
     conditions : sequence of str or Condition
         As `study` takes them.
     training, test : Operators, optional
@@ -72,20 +74,19 @@ def tune(
     TuningInterrupted
         On a keyboard interrupt; carries the best so far, judged on the test hands.
     TypeError
-        For a law that is no name.
+        For what is no law, or a law without parameters to change, as one that is no dataclass.
     ValueError
-        For a law without ranges, a parameter it does not have, or a number out of range.
+        For a law, or a field of a law in Python, without a range; a parameter it does not have; or a number out of
+        range.
     """
-    if not isinstance(law, str):
-        raise TypeError(
-            f"law = {shown(law)}: tune takes the name of a law of the package; search the parameters of your own with "
-            "ebac.study and ebac.studies.tuning.cost_of"
-        )
-    if law not in LAWS:
+    if isinstance(law, str) and law not in LAWS:
         raise unknown_name("law", law, LAWS)
+    if not isinstance(law, (str, type, Variant)):
+        checked(law)
+    changed(law)  # refuses a law without parameters
     if whole("evaluations", evaluations) < 2:
         raise ValueError(f"evaluations = {evaluations}: must be at least 2")
-    searched = Ranges(law, RANGES.get(law, {}) if ranges is None else ranges)
+    searched = Ranges(law, ranges_of(law) if ranges is None else ranges)
     hands = Operators.sample(HANDS, HANDS_SEED) if training is None else training
     others = Operators.grid() if test is None else test
     for population in (hands, others):
@@ -125,10 +126,11 @@ def _judged(
 ) -> Tuned:
     changes, cost = min(search.tried, key=lambda tried: tried[1])
     observer = base.designed_observer()
-    laws: dict[str, AnyLaw] = {"default": search.law, "tuned": Variant(search.law, changes)}
+    laws: dict[str, AnyLaw] = {"default": search.law, "tuned": changed(search.law, **changes)}
     found = study(hands, laws, search.conditions, base=base, seed=seed, threads=threads)
     return Tuned(
-        law=search.law,
+        law=law_name(search.law),
+        variant=laws["tuned"],
         delay=delay,
         observer=observer is not None and observer.every_law,
         changes=changes,

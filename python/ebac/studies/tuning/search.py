@@ -10,7 +10,7 @@ import numpy as np
 
 from ebac._util.arrays import Values
 from ebac._util.nlopt_callbacks import Carried
-from ebac.laws import Variant
+from ebac.laws import AnyLaw, changed
 from ebac.operators import Operators
 from ebac.scenario import Scenario
 from ebac.studies.breeding import AT_RANDOM, BRED, breed
@@ -30,7 +30,7 @@ class Search:
 
     def __init__(
         self,
-        law: str,
+        law: AnyLaw,
         ranges: Ranges,
         conditions: Sequence[Condition],
         hands: Operators,
@@ -68,7 +68,7 @@ class Search:
 
     def measure(self, changes: dict[str, float | bool]) -> float:
         """Simulate the training hands with some parameters changed; keep the point."""
-        law = Variant(self.law, changes)
+        law = changed(self.law, **changes)
         runs = sweep(self.scenarios, law, designed_for=self.known, threads=self.threads)
         in_time = settled_in_time(runs, self.ideal_settled_s)
         cost = cost_of(SweepResult({**runs.columns, "settled_in_time": in_time}))
