@@ -75,6 +75,9 @@ class PythonLaw(Protocol):
     One independent deep copy is made for each axis. With an attribute `observer` that is true it uses the estimate of
     the state observer, as `EBAC(observer=True)`: the world is met where the handle will be, and `port.est` is what
     the law goes by. What it raises ends the run: `simulate` raises a `LoopFault` that names the law.
+
+    Its parameters are the fields of its dataclass. The metadata of a field may declare `unit`, `low`, `high` and
+    `meaning`: `damping: float = field(default=30.0, metadata={"unit": "N s/m", "low": 0, "high": 100})`.
     """
 
     def step(self, port: Port) -> float:
