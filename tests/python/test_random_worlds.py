@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import json
+import re
+from itertools import product
 from pathlib import Path
 from typing import Any
 
@@ -138,6 +140,50 @@ def test_a_hand_begins_in_free_space_and_moves_in_the_same_world(
     assert [body.solid for body in world.bodies] == [body.solid for body in swinging.bodies]
     assert all(body.motion.still() for body in world.bodies)
     assert not any(body.motion.still() for body in swinging.bodies)
+
+
+def test_what_is_drawn_fills_the_ranges_of_the_docstring() -> None:
+    """Only the page had those of the worlds."""
+    drawn_from: dict[str, list[float]] = {}
+
+    def put(key: str, *values: float) -> None:
+        drawn_from.setdefault(key, []).extend(values)
+
+    for kind, index in product(KINDS, range(150)):
+        made = random_scenario(kind, "2-axes", index, moving=True)
+        put("LOW to HIGH kg", made.hand.mass)
+        put("LOW to HIGH N s/m", made.hand.damping)
+        put("LOW to HIGH N/m", made.hand.stiffness)
+        assert isinstance(made.environment, ebac.worlds.World)
+        for path, body in zip(made.hand.path[:2], made.environment.bodies, strict=False):
+            put("swings by LOW to HIGH mm", 1e3 * path.amplitude)
+            put("15 mm at LOW to HIGH Hz", path.frequency)
+            put("about LOW to HIGH mm", 1e3 * path.centre)
+            put("up to 4 mm at LOW to HIGH Hz", body.motion.frequency)
+            solid = body.solid
+            where = 1e3 * np.linalg.norm(getattr(solid, "at", np.zeros(3)))
+            match getattr(solid, "solid", solid), kind:
+                case ebac.worlds.Plane(), _:
+                    put("its surface LOW to HIGH mm", where)
+                case ebac.worlds.Sphere() as ball, "balls":
+                    put("two of one radius, LOW to HIGH mm", 1e3 * ball.radius)
+                    put("their surfaces LOW to HIGH mm", where - 1e3 * ball.radius)
+                case ebac.worlds.Sphere() as ball, "ball-and-plane":
+                    put("one of LOW to HIGH mm", 1e3 * ball.radius)
+                    put("mm, LOW to HIGH mm away", where - 1e3 * ball.radius)
+                case ebac.worlds.Sphere() as hole, "cavity":
+                    put("`cavity` of LOW to HIGH mm", 1e3 * hole.radius)
+                case ebac.worlds.Cylinder() as column, "cavity":
+                    put("a cylinder of LOW to HIGH mm", 1e3 * column.radius)
+    said = " ".join(str(random_worlds.__doc__).split())
+    for key, values in drawn_from.items():
+        number = r"(-?[\d.]*\d)"
+        found = re.search(key.replace("LOW", number).replace("HIGH", number), said)
+        assert found, key
+        low, high = map(float, found.groups())
+        near = 0.05 * (high - low)
+        assert min(values) == pytest.approx(low, abs=near), key
+        assert max(values) == pytest.approx(high, abs=near), key
 
 
 @given(cell, st.booleans())

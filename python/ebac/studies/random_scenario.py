@@ -43,8 +43,7 @@ def random_scenario(
 ) -> Scenario:
     """Return hand `index` with its own world. Stiffness, delay, noise, lag and `moving` change nothing else.
 
-    Each axis of the target swings by 1 to 15 mm at 0.3 to 3 Hz about -10 to 20 mm; the hand has 0.02 to 1 kg, 2 to
-    20 N s/m and 100 to 1000 N/m, mass and stiffness even in their logarithm. One world in three has a friction of 0.4.
+    `random_worlds` has the ranges from which hand and world are drawn.
 
     Parameters
     ----------
@@ -59,7 +58,7 @@ def random_scenario(
     delay : int
         Until a command acts [samples], [0, 8].
     moving : bool
-        Whether each body swings, by up to 4 mm at 0.5 to 3 Hz in a direction of its own, from where it stands still.
+        Whether each body swings in a direction of its own, from where it stands still.
     noise : float
         Of the force sensor, standard deviation [N], [0, 100]; laws with a `force_noise` take 10 at most.
     lag : float

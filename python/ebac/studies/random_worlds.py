@@ -51,7 +51,19 @@ def random_worlds(
     """Simulate each law with random hands, each in a random world of several bodies of its own, for 4 s.
 
     Hand and world come from seed, kind, device and the index of the hand alone: all laws, stiffnesses and delays meet
-    the same, and more hands begin with those of fewer. `random_scenario` has their ranges.
+    the same, and more hands begin with those of fewer. Each number is drawn evenly from its range, mass and stiffness
+    of a hand evenly in their logarithm:
+
+    * a hand: 0.02 to 1 kg, 2 to 20 N s/m, 100 to 1000 N/m; each axis of its target swings by 1 to 15 mm at 0.3 to 3 Hz
+      about -10 to 20 mm;
+    * a plane, of the kinds `planes`, `ball-and-plane` and `three-planes`: its surface 2 to 8 mm from where the handle
+      begins; the first two directions, of planes or balls, 5 to 175 degrees apart;
+    * a ball: of the kind `balls` two of one radius, 5 to 30 mm, their surfaces 2 to 6 mm away; of `ball-and-plane`
+      one of 3 to 20 mm, 2 to 8 mm away;
+    * a `cavity` of 8 to 20 mm about the handle, in it a cylinder of 2 to 6 mm radius, its axis at 0.4 to 0.8 times the
+      radius of the cavity, its surface at least 1 mm away;
+    * friction: 0.4 in one world of three, else 0;
+    * with `moving`: each body swings by up to 4 mm at 0.5 to 3 Hz.
 
     Parameters
     ----------
@@ -66,7 +78,7 @@ def random_worlds(
     delays : sequence of int
         Until a command acts [samples], [0, 8].
     moving : bool
-        Whether each body swings, by up to 4 mm at 0.5 to 3 Hz in a direction of its own.
+        Whether each body swings in a direction of its own.
     hands : int
         For each row, [1, 100000].
     noise : float

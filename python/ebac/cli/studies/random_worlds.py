@@ -93,7 +93,8 @@ def random_worlds(
     A simulation. Each hand moves for 4 s in a world of its own: it presses, slides from one body to another, and taps.
     The table counts hands that the guard of a law holds back for longer than 0.1 s, and hands that draw more energy
     than the reserve of the law, beyond what moving bodies put in. All laws, stiffnesses and delays meet the same hands
-    and worlds. The worst hand of each law in each kind of world is saved as a scenario.
+    and worlds. The worst hand of each law in each kind of world is saved as a scenario. In Python
+    `help(ebac.random_worlds)` lists the ranges from which hands and worlds are drawn.
 
     **Examples**
 
