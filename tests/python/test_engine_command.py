@@ -125,6 +125,8 @@ def test_the_world_of_a_program_is_felt_and_the_program_is_ended(room: Path) -> 
     assert told["engine"]["trouble"] == ""
     assert told["engine"]["command"].endswith("engine.py")
     assert told["expected"] is None
+    assert told["rows"][0]["verdict"] == "not judged: the surface moves"
+    assert "stand still" not in done.stderr
     assert "environment" not in told["scenario"]
     assert told["ended_by"] == "time"
     trace = ebac.load(room / told["log"])
@@ -142,6 +144,7 @@ def test_one_that_is_killed_in_contact_fades_and_the_run_goes_on_and_says_so(roo
     assert done.exit_code == 1, done.stderr
     assert "was killed by SIGKILL: its force fades to zero" in " ".join(done.stderr.split())
     assert "It did not last" in " ".join(done.stdout.split())
+    assert "The verdict takes its surface to stand still." in " ".join(done.stdout.split())
     (log,) = (room / "out").glob("*.mcap")
     force = ebac.load(log)["f_env"][:, 0]
     assert force.max() > 2

@@ -6,7 +6,9 @@ import pickle
 import time
 import warnings
 from collections.abc import Callable
+from itertools import count
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -71,6 +73,36 @@ def test_what_a_function_stores_is_not_known(world: FunctionWorld | Bridge, know
     assert (met.most_drawn_J is not None) == known
     assert ("drawn in any window -" in str(met)) != known
     assert np.isfinite(ebac.sweep([scenario], "ebac")["most_drawn_J"][0]) == known
+
+
+def until(moving: float) -> Bridge:
+    """Return a wall that an engine moves out by 1 mm/s until then [s]."""
+    ticks = count()
+
+    def wall(x: Any, v: Any) -> LocalModel:
+        t = next(ticks) / 60
+        at, speed = 0.01 - 1e-3 * min(t, moving), -1e-3 * (t < moving)
+        return LocalModel(at=(at, 0, 0), normal=(1, 0, 0), stiffness=1e3, velocity=(speed, 0, 0))
+
+    return Bridge(wall, timing=EngineTiming(rate=60))
+
+
+def test_rest_is_not_judged_where_an_engine_reports_a_surface_that_moves(tmp_path: Path) -> None:
+    """The breathing of `ebac demo engine` was called a swing of the handle."""
+    for moving, judged, axes in ((9.0, False, 1), (0.3, True, 1), (9.0, False, 2)):
+        device = ebac.Device(kinematics=ebac.Linear(axes=axes))
+        scenario = ebac.Scenario(device=device, environment=until(moving), seconds=2)
+        trace = ebac.simulate(scenario, "ebac")
+        with pytest.warns(UserWarning, match="scenario"):
+            trace.save(tmp_path / "run.npz")
+        for run in (trace, ebac.load(tmp_path / "run.npz")):
+            found = ebac.contact(run)
+            assert found.surface_moves is not judged
+            assert (found.verdict == "not judged: the surface moves") is not judged
+            assert found.row()["verdict"] == found.verdict
+    wall = ebac.Wall(motion_amplitude=1e-3, motion_frequency=1.0)
+    trace = ebac.simulate(ebac.Scenario(environment=wall, seconds=1), "ebac")
+    assert not ebac.contact(trace).surface_moves  # what it does is known
 
 
 def test_a_touch_has_a_normal_of_its_own() -> None:

@@ -19,14 +19,17 @@ def verdict(contact: Contact) -> str:
 
     One that is still and not quiet has a force that is not: "exact, force not quiet". One that rests where it should,
     but met less than half of the wall's stiffness where it was deepest: "exact and quiet, soft on impact".
-    "moves with the hand" where the hand's target has not come to rest either, in contact or not at the end. "no
-    contact" where the world never acted, "left the surface: no contact at rest" where it acts no more at rest, "too
-    short to judge" for less than half a second.
+    "not judged: the surface moves" where an engine reports that in the last 30 %. "moves with the hand" where the
+    hand's target has not come to rest either, in contact or not at the end. "no contact" where the world never acted,
+    "left the surface: no contact at rest" where it acts no more at rest, "too short to judge" for less than half a
+    second.
     """
     if contact.touched is False:
         return "no contact"
     if contact.seconds is not None and contact.seconds < JUDGED_FROM:
         return "too short to judge"
+    if contact.surface_moves:
+        return "not judged: the surface moves"
     if contact.with_hand and not contact.still:
         return "moves with the hand"
     if contact.touched_at_rest is False:

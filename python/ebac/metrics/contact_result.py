@@ -12,7 +12,7 @@ SOFT_BELOW = 0.5
 #: Numbers of a contact that are no keys of `ebac wall --json`.
 MORE = (
     "count_m", "allowed_m", "most_drawn_J", "force_step_N", "most_pull_N", "rest_power_W", "seconds", "touched",
-    "with_hand", "at_hands_pace", "saturated_share",
+    "with_hand", "at_hands_pace", "surface_moves", "saturated_share",
 )  # fmt: skip
 #: What a printed contact shows: label, attribute, unit, what to print where there is none: with nothing, no line.
 LINES = (
@@ -134,6 +134,9 @@ class Contact:
         that of the simulated hand's target over the last 30 %. Where the target is not known, as in a recording on
         hardware, a swing of at most 3 Hz may be the hand's if the virtual world does not act in a fifth of the last
         30 % or more: a hand that taps, or moves in free air.
+    surface_moves : bool
+        Whether the surface of an engine moves, while it is touched in the last 30 %, by more than 0.025 mm, as the
+        engine reports it: there the verdict judges neither rest nor swing, which may be those of the surface.
     saturated_share : float or None
         Share of ticks in which the command was more than the motor's peak force, which is applied then. None without a
         scenario, and on a gimbal, where a force is no torque of one motor.
@@ -193,12 +196,13 @@ class Contact:
     drawn_J: float | None = None
     with_hand: bool = False
     at_hands_pace: bool = False
+    surface_moves: bool = False
     saturated_share: float | None = None
     impact_share: float | None = None
 
     @property
     def verdict(self) -> str:
-        """The verdict in words: "exact and quiet", "swings", "moves with the hand", "no contact"."""
+        """The verdict in words: "exact and quiet", "swings", "no contact", "not judged: the surface moves"."""
         return verdicts.verdict(self)
 
     @property

@@ -36,6 +36,8 @@ SWINGS = 1.25
 #: A handle at rest under less than this share of the force at the ideal rest grazes a surface, and is held by none: its
 #: target lies on the far side of a body that it slid around.
 GRAZE_SHARE = 0.05
+#: A surface moves at rest if it goes farther than this share of what the handle may swing.
+MOVES = 0.1
 #: The numbers of a contact, and what the core calls them.
 COLUMNS = {
     "rest_m": "rest",
@@ -152,6 +154,7 @@ def contact(trace: Trace, *, axis: int | None = None, truth: bool = True) -> Con
         and not known["still"]
         and all(moves_with_hand(trace, i) for i in judged),
         at_hands_pace=at_hands_pace(trace, known["limit_cycle"], judged, target=simulated),
+        surface_moves=_surface_moves(trace),
         saturated_share=_saturated(trace, axis),
         **touched,
         **{column: known[name] for column, name in COLUMNS.items()},
@@ -189,6 +192,24 @@ def _moves(trace: Trace) -> bool:
     return "world_v" in trace and bool(trace["world_v"].any())
 
 
+def _surface_moves(trace: Trace) -> bool:
+    """Return whether a surface of which only an engine knows how it moves did so at rest."""
+    scenario = trace.scenario
+    if scenario is not None and foreign(scenario.environment) is None:
+        return False
+    if "world_v" not in trace:
+        return False
+    steps = _columns(trace, "world_v") * np.gradient(trace["t"])[:, np.newaxis]
+    ways = np.ptp(steps.cumsum(axis=0)[_at_rest(trace)], axis=0)
+    return bool(ways.max() > MOVES * STILL_SWING)
+
+
+def _at_rest(trace: Trace) -> NDArray[np.bool_]:
+    """Return which rows are the end of a run, over which rest and swing are taken."""
+    t = trace["t"]
+    return np.asarray(t >= t[-1] - TAIL_SHARE * (t[-1] - t[0]))
+
+
 def _saturated(trace: Trace, axis: int) -> float | None:
     """Return the share of ticks whose command is more than the motor can give."""
     scenario = trace.scenario
@@ -219,8 +240,7 @@ def _grazes(trace: Trace, judged: Sequence[int], ideal: float | None) -> bool:
     if scenario is None or ideal is None or "f_env" not in trace:
         return False
     most = GRAZE_SHARE * abs(scenario.hand.steady(ideal))
-    t = trace["t"]
-    tail = t >= t[-1] - TAIL_SHARE * (t[-1] - t[0])
+    tail = _at_rest(trace)
     means = [
         np.hypot.reduce([trace.axis(name, i)[tail].mean() for i in judged])
         for name in ("f_env", "f_applied")

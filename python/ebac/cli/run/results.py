@@ -239,7 +239,9 @@ def show(result: Result) -> None:
     if result.limits is not None:
         output.say(f"The current was held back by {result.limits}.", style="yellow")
     if result.engine is not None:
-        still = " The verdict takes its surface to stand still." if result.engine.models else ""
+        met = result.contact
+        judged = met is not None and result.engine.models and not met.surface_moves
+        still = " The verdict takes its surface to stand still." if judged else ""
         output.say(f"{result.engine}{still}")
     if result.times is not None:
         _show_times(result.times)
