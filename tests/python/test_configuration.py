@@ -237,7 +237,7 @@ def test_a_number_out_of_range_is_named_by_its_key_and_a_second_one_too() -> Non
         Configuration.from_toml(motor, name="mine.toml")
     said = str(refused.value)
     assert said.startswith("mine.toml, line 2: device.motor.rotor_inertia = -3.45e-06 kg m^2: must")
-    assert "Describe your device" in said
+    assert "`ebac keys device." in said
     with pytest.raises(ConfigurationError, match=r"device\.motor\.rotor_inertia is given a second"):
         Configuration.from_toml(motor + "rotor_inertia = 1e-6\n")
 
@@ -352,3 +352,17 @@ def test_a_first_run_has_no_force(law: str) -> None:
     assert abs(trace["x"]).max() > 0.03, "beyond where the wall was"
     assert not trace["f_cmd"].any()
     assert not trace["current"].any()
+
+
+def test_a_simulated_hand_takes_a_model_as_that_of_a_scenario_does() -> None:
+    """It was refused unless the preset had one."""
+    table = 'type = "FingerPad"\nstiffness = 300.0\n'
+    hand = Configuration.from_toml(f"[simulated.hand.model]\n{table}").hand
+    assert hand == ebac.Scenario.from_toml(f"[hand.model]\n{table}").hand
+    assert hand.model == ebac.hands.FingerPad(stiffness=300.0)
+    with pytest.raises(
+        ConfigurationError, match=r"line 3: simulated\.hand\.model\.stiffness = -1 N"
+    ):
+        Configuration.from_toml('[simulated.hand.model]\ntype = "FingerPad"\nstiffness = -1.0\n')
+    with pytest.raises(ConfigurationError, match=r"line 2: simulated\.hand\.model"):
+        Configuration.from_toml("[simulated.hand]\nmodel = 3\n")

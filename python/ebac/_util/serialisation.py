@@ -120,6 +120,8 @@ def on_top(base: Any, table: Mapping[str, Any], path: Path, *, apart: Iterable[s
         For an unknown name or type or a number out of range.
     """
     parts, others = base.as_dict(), list(apart)
+    if isinstance(base, _core.Hand):
+        parts.setdefault("model", None)  # a hand without one may get one
     refuse_keys(table, [*parts, *others], path, type(base).__name__)
     changes = {}
     for name, item in table.items():
