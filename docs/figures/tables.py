@@ -23,6 +23,7 @@ import friction_tables as friction
 import gastroscopy_tables as gastroscopy
 import held_tables as holding
 import identify_tables as identified
+import key_tables as file_keys
 import law_tables as laws
 import limit_tables as limits
 import population_tables as populations
@@ -90,6 +91,7 @@ TABLES: dict[str, Callable[[Printed], str]] = {
     "shapes-soft": worlds.soft_shapes,
     "shapes-stiff": worlds.stiff_shapes,
     "speed": laws.speed,
+    **file_keys.TABLES,
 }
 #: Left out unless asked for: what `speed` says depends on what else the machine does; the others take long.
 ASKED = {

@@ -614,28 +614,33 @@ def test_a_plant_refuses_an_axis_it_does_not_have_and_a_tick_that_is_none(plant:
 
 
 def test_the_page_has_every_key_of_a_device_with_unit_and_default() -> None:
-    page = Path(__file__).parents[2] / "docs" / "how-to" / "describe_your_device.md"
+    page = Path(__file__).parents[2] / "docs" / "reference" / "configuration.md"
     shown: dict[str, dict[str, tuple[str, str]]] = {}
     part = ""
     for line in page.read_text(encoding="utf-8").splitlines():
         cells = [cell.strip() for cell in line.strip("|").split("|")]
-        if len(cells) != 5 or not (key := re.fullmatch(r"`(\w+)`", cells[1])):
+        if len(cells) != 6 or not (key := re.fullmatch(r"`(\w+)`", cells[1])):
             continue
-        if name := re.match(r"`\[device\.(\w+)\]`", cells[0]):
-            part = name[1]
-        shown.setdefault(part, {})[key[1]] = (cells[2], cells[3])
-    failures = {"stops_at", "resumes_at", "repeats", "disconnects"}
-    device = ebac.Device()
-    parts = {name: value for name, value in device.as_dict().items() if name in shown}
-    assert parts.keys() == device.as_dict().keys() - {"velocity", "compensation"}
-    for name, value in parts.items():
+        if cells[0]:
+            named = re.match(r"`\[device\.(\w+)\]`(?:, `type = \"(\w+)\"`)?$", cells[0])
+            part = "" if named is None else named[2] or named[1]
+        shown.setdefault(part, {})[key[1]] = (
+            cells[2],
+            cells[3].partition("; in a configuration")[0],
+        )
+    kinds = (ebac.Gimbal, ebac.SlidingGimbal, ebac.LowPass, ebac.AdaptiveWindow)
+    parts = {
+        ("Linear" if name == "kinematics" else name): type(value)
+        for name, value in ebac.Device().as_dict().items()
+        if name != "velocity"
+    } | {kind.__name__: kind for kind in kinds}
+    for name, kind in parts.items():
         assert shown[name] == {
             f.name: (
-                f.unit,
+                "" if isinstance(f.default, bool) else f.unit,
                 str(f.default).lower() if isinstance(f.default, bool) else f"{f.default:.4g}",
             )
-            for f in type(value).fields()
-            if f.name not in failures
+            for f in kind.fields()
         }, name
 
 

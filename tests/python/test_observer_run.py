@@ -76,10 +76,10 @@ def test_a_table_turns_it_on_with_the_design_of_the_device() -> None:
 
 
 def test_the_page_has_a_row_for_each_key() -> None:
-    page = EXAMPLE.parents[1] / "docs" / "how-to" / "run_on_hardware.md"
-    table = page.read_text(encoding="utf-8").partition("\n| `[observer]` | `mass`")[2]
-    rows = table.partition("\n\n")[0].splitlines()[1:]
-    named = ["mass", *(row.split("`")[1] for row in rows)]
+    page = EXAMPLE.parents[1] / "docs" / "reference" / "configuration.md"
+    table = page.read_text(encoding="utf-8").partition("<!-- table: keys-observer -->\n")[2]
+    rows = table.partition("\n<!-- end -->")[0].splitlines()[2:]
+    named = [row.split("`")[1] for row in rows]
     assert named == [one.name for one in ebac.Observer.fields()]
 
 

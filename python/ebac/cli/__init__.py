@@ -48,6 +48,7 @@ class Ebac(GroupByNeed):
         "track": Place(DATA, "track:track"),
         "log": Place(DATA, "log.log:log"),
         "run": Place(HARDWARE, "run.run:run", defaults="as configured"),
+        "keys": Place(HARDWARE, "catalogue.keys:keys"),
         "drive": Place(HARDWARE, "drive:app"),
         "sensor": Place(HARDWARE, "sensor:app"),
         "bus": Place(HARDWARE, "bus:bus"),

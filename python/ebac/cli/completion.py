@@ -56,6 +56,14 @@ def presets(incomplete: str) -> list[str]:
     return list(dict.fromkeys([*hands(incomplete), *devices(incomplete)]))
 
 
+def keys(incomplete: str) -> list[str]:
+    """Return the tables and kinds of files that begin so."""
+    from ebac.cli.catalogue.keys import names
+    from ebac.hardware.keys import file_keys
+
+    return _begun(incomplete, names(file_keys()))
+
+
 @several
 def world_kinds(incomplete: str) -> list[str]:
     """Return the kinds of random worlds that begin so."""

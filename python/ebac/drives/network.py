@@ -61,7 +61,7 @@ class Network:
     nodes : tuple of Node
         The drives.
     bitrate : int
-        Of the bus [bit/s].
+        Bit rate of the bus [bit/s].
     others : tuple of Traffic
         What else comes on the bus again and again.
     """

@@ -18,7 +18,7 @@ NAMES = tuple(f"{kind}{i}" for kind in ("rpdo", "tpdo") for i in range(1, PDOS +
 _SYNCHRONOUS = range(241)
 _EVENT = (254, 255)
 #: inhibit time, event timer: longest [s], one raw unit [s].
-_TIMES = {"inhibit": (6.5535, 1e-4), "event": (65.535, 1e-3)}
+TIMES = {"inhibit": (6.5535, 1e-4), "event": (65.535, 1e-3)}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -98,7 +98,7 @@ def read_pdo(source: Source, name: str, table: Any) -> Pdo:
         raise source.refuse(path, unknown(f"pdo.{name}", name, [*NAMES, "others"]))
     if not isinstance(table, Mapping):
         raise source.refuse(path, f"pdo.{name} = {table!r}: must be a table with `objects`")
-    known = ["objects", "type", *_TIMES]
+    known = ["objects", "type", *TIMES]
     for key in table:
         if key not in known:
             raise source.refuse((*path, key), unknown(f"pdo.{name}.{key}", key, known))
@@ -106,7 +106,7 @@ def read_pdo(source: Source, name: str, table: Any) -> Pdo:
         name=name,
         objects=_objects(source, name, table.get("objects")),
         type=_type(source, name, table.get("type", 1)),
-        **{key: _time(source, name, key, table.get(key, 0.0)) for key in _TIMES},
+        **{key: _time(source, name, key, table.get(key, 0.0)) for key in TIMES},
     )
     if not pdo.sent and pdo.inhibit:
         raise source.refuse(
@@ -156,7 +156,7 @@ def _type(source: Source, name: str, given: Any) -> int:
 
 
 def _time(source: Source, name: str, key: str, given: Any) -> float:
-    longest, unit = _TIMES[key]
+    longest, unit = TIMES[key]
     wrong = isinstance(given, bool) or not isinstance(given, (int, float))
     if wrong or not 0 <= given <= longest or (0 < given < unit):
         raise source.refuse(

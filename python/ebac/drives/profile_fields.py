@@ -136,7 +136,7 @@ _TINY, _HUGE = 1e-5, 1e3
 #: Every key of a profile, in the order the drive is written.
 KEYS: tuple[Key, ...] = (
     Key(name="motor.object", choices=_MOTOR_OBJECTS, default="0x2383",
-        remedy="older Copley firmware has its motor data at 0x6410"),
+        remedy="older Copley firmware has its motor data at 0x6410", why="where the drive keeps its motor data"),
     Key(name="motor.torque_constant", unit="N m/A", low=_TINY, high=100, remedy=_SHEET,
         sets="motor_torque_constant", scale=1e-5, why="what current a torque takes, eq. (1)"),
     Key(name="motor.continuous_torque", unit="N m", low=_TINY, high=_HUGE, remedy=_SHEET,
@@ -179,9 +179,10 @@ KEYS: tuple[Key, ...] = (
         remedy="three times the loop's heartbeat period; 0 watches nobody",
         scale=1e-3, why="the drive stops when the loop falls silent"),
     Key(name="heartbeat.guard", unit="s", low=0.03, high=60.0, scale=1e-3,
-        remedy="node guarding (0x100C, 0x100D), for a drive that watches no heartbeat; then it sends none"),
+        remedy="node guarding (0x100C, 0x100D), for a drive that watches no heartbeat; then it sends none",
+        why="longest silence of the loop, in place of the heartbeat"),
     Key(name="heartbeat.master", low=1, high=127, whole=True, default=127,
-        remedy="node id of the loop, one no drive has"),
+        remedy="node id of the loop, one no drive has", why="whose heartbeat the drive watches"),
 )  # fmt: skip
 
 #: The same by name.

@@ -44,8 +44,10 @@ class Configuration:
         Name of the file, for messages.
     text : str
         Text of the file; it is stored in every log.
-    interface, channel : str
-        Interface and channel of the CAN bus: "socketcan" and "can0", or "ebac" and a channel inside this process.
+    interface : str
+        Interface of the CAN bus: "socketcan", or "ebac" for a bus inside this process.
+    channel : str
+        Channel of the bus: "can0", or any name for a bus inside this process.
     drives : Network
         The drives, one per axis, each with its profile.
     signs : Signs
@@ -80,8 +82,12 @@ class Configuration:
         Parameters of the law that replace those of its design, in SI units.
     limits : Limits
         Limits that the loop enforces.
-    seconds, soft_start, ramp_down : float
-        Length of a run [s], and the times in which the force is ramped up and down [s].
+    seconds : float
+        Length of a run [s].
+    soft_start : float
+        Time in which the force is ramped up at the beginning of a run [s].
+    ramp_down : float
+        Time in which it is ramped down at the end of a run [s].
     mode : "auto", "enforce" or "off"
         Whether real-time settings that the system does not grant are an error ("enforce"), are tolerated ("auto") or
         are not requested ("off").

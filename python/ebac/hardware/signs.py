@@ -15,8 +15,10 @@ class Signs:
 
     Attributes
     ----------
-    motor, encoder : tuple of int
-        Factors of the current of each motor and of the counts of each encoder.
+    motor : tuple of int
+        Factor of the current of each motor: -1 turns it.
+    encoder : tuple of int
+        Factor of the counts of each encoder: -1 turns them.
     """
 
     motor: tuple[int, ...] = ()

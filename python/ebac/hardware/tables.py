@@ -101,4 +101,4 @@ def _remedy(wrong: Misplaced) -> str:
     said = str(wrong)
     if wrong.path[0] != "device" or "must lie in" not in said or ";" in said:
         return ""
-    return "; the page Describe your device says where it stands in a data sheet, and how to convert it"
+    return f"; `ebac keys {dotted(wrong.path[:2])}` shows where it stands in a data sheet, and how to convert it"

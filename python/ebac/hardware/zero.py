@@ -19,7 +19,8 @@ class Zero:
     Attributes
     ----------
     counts : tuple of int
-        Counts of each axis, -2147483648 to 2147483647, as the drive shows them, before `[signs]`; empty if all are 0.
+        Counts of each axis with the handle at its zero, -2147483648 to 2147483647, as the drive shows them (0x6064),
+        before `[signs]`; empty if all are 0.
     absolute : bool
         Whether these counts stay valid, as those of an absolute encoder do. An incremental encoder begins at another
         count whenever its drive is switched on; a run on hardware then asks whether the zero is correct.

@@ -5,8 +5,8 @@ from __future__ import annotations
 import dataclasses
 import warnings
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
-from math import isfinite
+from dataclasses import dataclass, field
+from math import inf, isfinite
 from typing import Any, Self, TypeAlias
 
 from ebac import _core
@@ -25,6 +25,11 @@ MODELS = dict(zip(BITS, _core.SensorModel, strict=True))
 _SAME_SCALE = 1e-3
 #: Parameters that the core checks as a scale.
 _SCALE = ("counts_per_force", "counts_per_torque", "force_range", "torque_range")
+
+
+def _within(low: float = -inf, high: float = inf, unit: str = "1") -> dict[str, Any]:
+    """Return range and unit of a field, for lists of keys; what is given is checked by the core."""
+    return {"low": low, "high": high, "unit": unit}
 
 
 @plain_constructor
@@ -69,23 +74,23 @@ class SensorConfig:
     """
 
     host: str = "192.168.1.1"
-    port: int = 49152
+    port: int = field(default=49152, metadata=_within(1, 65535))
     model: str = "net-ft"
-    counts_per_force: float = 1e6
-    counts_per_torque: float = 1e6
-    force_range: float = 0.0
-    torque_range: float = 0.0
+    counts_per_force: float = field(default=1e6, metadata=_within(1e-3, 1e12, "counts/N"))
+    counts_per_torque: float = field(default=1e6, metadata=_within(1e-3, 1e12, "counts/(N m)"))
+    force_range: float = field(default=0.0, metadata=_within(0.0, 1e6, "N"))
+    torque_range: float = field(default=0.0, metadata=_within(0.0, 1e6, "N m"))
     rotation: Rotation = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
     sign: int = 1
-    bias: Wrench = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
-    http_port: int = 80
-    retry: float = 0.25
-    gone: float = 0.5
+    bias: Wrench = field(default=(0.0, 0.0, 0.0, 0.0, 0.0, 0.0), metadata=_within(unit="N, N m"))
+    http_port: int = field(default=80, metadata=_within(0, 65535))
+    retry: float = field(default=0.25, metadata=_within(1e-3, 60.0, "s"))
+    gone: float = field(default=0.5, metadata=_within(1e-3, 60.0, "s"))
 
     def __post_init__(self) -> None:
         """Check types and ranges; the core checks what it owns."""
-        for field in dataclasses.fields(self):
-            object.__setattr__(self, field.name, plain(getattr(self, field.name)))
+        for one in dataclasses.fields(self):
+            object.__setattr__(self, one.name, plain(getattr(self, one.name)))
         host: Any = self.host
         if not isinstance(host, str) or not host.strip():
             raise TypeError(

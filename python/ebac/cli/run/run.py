@@ -24,7 +24,9 @@ def run(
     style: FigureOptions,
     configuration: Annotated[
         Path,
-        typer.Argument(help="Configuration of device and run in TOML; see `ebac demo joystick`."),
+        typer.Argument(
+            help="Configuration of device and run in TOML: `ebac demo joystick` writes one, `ebac keys` lists its keys."
+        ),
     ],
     simulated: Annotated[
         bool,
