@@ -13,12 +13,12 @@ from typer.testing import CliRunner
 import ebac
 from ebac import drives
 from ebac._util.docstrings import parameters
-from ebac.cli import app
+from ebac.cli import app, completion
 from ebac.drives.profile import read_profile
 from ebac.drives.toml_positions import Source
 from ebac.hardware import Configuration, ConfigurationError
 from ebac.hardware.key_notes import FAULTS, NOTES, WARNINGS
-from ebac.hardware.keys import CONFIGURATION, PROFILE, FileKey, as_toml, file_keys
+from ebac.hardware.keys import CONFIGURATION, PROFILE, SCENARIO, FileKey, as_toml, file_keys
 
 DOCS = Path(__file__).parents[2] / "docs"
 sys.path.insert(0, str(DOCS / "figures"))
@@ -99,6 +99,22 @@ def test_the_keys_of_a_table_are_those_that_its_reader_takes(file: str, table: s
         assert listed, str(refused.value)
         named = {*listed[1].split(", ")} - PARTS.get(table, set())
         assert named == own - ({"type"} if kind else set())
+
+
+def test_the_keys_at_the_top_of_a_scenario_are_those_that_its_reader_takes() -> None:
+    with pytest.raises(ValueError, match="none: no such name") as refused:
+        ebac.Scenario.from_toml("none = 1\n")
+    listed = {*str(refused.value).partition("there are: ")[2].split(", ")}
+    tables = {"device", "hand", "environment", "timing"}
+    keys = [key for key in EVERY if key.files == (SCENARIO,)]
+    assert {key.name for key in keys} == listed - tables
+    plain = ebac.Scenario()
+    assert all(key.default == getattr(plain, key.name) for key in keys)
+    for key in keys:
+        for value in key.choices:
+            assert ebac.Scenario.from_toml(f"{key.name} = {as_toml(value)}\n") == plain.replace(
+                **{key.name: value}
+            )
 
 
 NUMBERS = [
@@ -220,6 +236,11 @@ def test_a_table_is_printed_with_unit_default_range_and_warning() -> None:
     (row,) = rows("thermal_time")
     assert (row["unit"], row["default"], row["low"], row["high"]) == ("s", 16.0, 0.01, 1e4)
     assert "burns the winding" in row["warning"]
+
+
+def test_names_of_tables_are_completed() -> None:
+    assert completion.keys("device.m") == ["device.motor", "device.mechanics"]
+    assert completion.keys("net") == ["network"]
 
 
 def test_a_name_that_is_none_is_refused_with_the_nearest() -> None:

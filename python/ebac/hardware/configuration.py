@@ -61,8 +61,9 @@ class Configuration:
     setup : "verify" or "apply"
         Whether a drive whose objects differ from its profile is refused ("verify") or written ("apply").
     silent : int or None
-        Number of ticks in a row without process data that is a fault [samples], 1 to 1000; None for 3 on hardware and
-        on the virtual clock, and 10 with simulated drives in real time, which share the processors with their loop.
+        Number of ticks in a row without process data that is a fault [samples], 1 to 1000. None, or a file without the
+        key, means 3 on hardware and on the virtual clock, and 10 with simulated drives in real time, which share the
+        processors with their loop.
     answer_share : float
         How long the drives may take to answer, as a share of the sample time.
     device : Device

@@ -29,7 +29,7 @@ from ebac.hardware.signs import Signs
 from ebac.hardware.zero import LEAST, MOST, Zero
 from ebac.laws import LAWS
 from ebac.realtime.mode import MODES
-from ebac.scenario import Scenario
+from ebac.scenario import EVERY_LAW, LEARNS_SCALE, Scenario
 from ebac.sensor.configuration import MODELS, SensorConfig
 
 CONFIGURATION, SCENARIO, PROFILE, NETWORK = "configuration", "scenario", "profile", "network file"
@@ -310,6 +310,15 @@ def _top() -> Iterator[FileKey]:
                 files=(SCENARIO,), table="", name=one.name, unit=unit, default=one.default, low=low, high=high,
                 meaning=said[one.name],
             )  # fmt: skip
+    yield FileKey(
+        files=(SCENARIO,),
+        table="",
+        name="observer",
+        default=True,
+        choices=(True, False, EVERY_LAW, LEARNS_SCALE),
+        meaning=said["observer"],
+        note="or a table [observer], whose keys that are left out are those of the reference device",
+    )
 
 
 def _bus(plain: Configuration, said: Mapping[str, str]) -> Iterator[FileKey]:
