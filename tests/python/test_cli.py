@@ -501,7 +501,8 @@ def test_a_fault_is_told_and_its_log_kept(monkeypatch: pytest.MonkeyPatch, tmp_p
             "study --device-friction 1",
             "did you mean --device-coulomb or --device-friction-compensation; see",
         ),
-        ("tune mine.py:Mine", "this command takes the laws of the package only"),
+        ("tune mine.py:Mine", "LAW mine.py:Mine: there is no file mine.py"),
+        ("ablation --beside mine.py:Mine", "this command takes the laws of the package only"),
         ("laws mine.py:Damped", "NAME mine.py:Damped: there is no file mine.py"),
         ("laws tca,eba", "NAME tca,eba: one law only; give one of tca, eba"),
         (
