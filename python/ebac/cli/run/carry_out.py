@@ -90,8 +90,9 @@ def run_virtual(
     first: tuple[str, ...],
 ) -> None:
     """Run the same on a virtual clock and give what a run gives."""
+    from ebac._util.atomic_file import draft
     from ebac.logs.about import CONFIGURATION_FILE
-    from ebac.logs.files import draft, write_mcap
+    from ebac.logs.files import write_mcap
     from ebac.simulation import LoopFault
 
     log = None if stem is None else stem.with_suffix(".mcap")
