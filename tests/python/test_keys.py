@@ -17,8 +17,8 @@ from ebac.cli import app, completion
 from ebac.drives.profile import read_profile
 from ebac.drives.toml_positions import Source
 from ebac.hardware import Configuration, ConfigurationError
-from ebac.hardware.key_notes import FAULTS, NOTES, WARNINGS
 from ebac.hardware.keys import CONFIGURATION, PROFILE, SCENARIO, FileKey, as_toml, file_keys
+from ebac.hardware.keys.notes import FAULTS, NOTES, WARNINGS
 
 DOCS = Path(__file__).parents[2] / "docs"
 sys.path.insert(0, str(DOCS / "figures"))
