@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from importlib.util import find_spec
 from pathlib import Path
 
@@ -282,6 +283,13 @@ def test_the_file_of_a_mesh_is_named_from_a_configuration(cube: Path) -> None:
     assert world.bodies[0].solid.file == str(cube)
 
 
+@pytest.fixture
+def coarse(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A preset of a mesh has few cells: it is placed by its triangles."""
+    monkeypatch.setattr("ebac.worlds.presets.Mesh", partial(Mesh, cell=4e-3))
+
+
+@pytest.mark.usefixtures("coarse")
 @pytest.mark.parametrize("turned", range(4))
 def test_a_mesh_is_met_in_the_middle_of_its_front_whatever_the_order_of_its_vertices(
     tmp_path: Path, turned: int
@@ -298,6 +306,7 @@ def test_a_mesh_is_met_in_the_middle_of_its_front_whatever_the_order_of_its_vert
     assert solid.at == pytest.approx((MESH_SIZE / 2, 0.0, 0.0), abs=1e-9)
 
 
+@pytest.mark.usefixtures("coarse")
 def test_a_mesh_with_a_hole_in_its_front_is_met_at_its_edge(tmp_path: Path) -> None:
     import trimesh
 
