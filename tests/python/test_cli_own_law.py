@@ -315,7 +315,7 @@ def without_notes(output: str) -> list[str]:
         ["stiffest", "--delay", "1"],
         ["worst"],
         ["zwidth"],
-        ["map"],
+        ["map", "--side", "2"],
         ["shapes"],
         ["tissue"],
         ["engines"],
