@@ -38,6 +38,13 @@ def server(tmp_path: Path) -> Iterator[Any]:
         yield one
 
 
+@pytest.fixture(scope="module")
+def closed(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Any]:
+    """A server for those whom it refuses: its loop is not touched."""
+    with serve(folder=tmp_path_factory.mktemp("closed")) as one:
+        yield one
+
+
 def socket(server: Any, role: str = "control", origin: str | None = None, **more: Any) -> Any:
     gate = server.gate
     secret = {"control": gate.control, "watch": gate.watch}.get(role, role)
@@ -66,16 +73,16 @@ def status(url: str, **headers: str) -> int:
         return error.code
 
 
-def test_the_page_needs_its_token_and_its_own_name(server: Any) -> None:
-    base = f"http://127.0.0.1:{server.gate.port}/"
-    with urllib.request.urlopen(server.gate.url(), timeout=5) as answer:
+def test_the_page_needs_its_token_and_its_own_name(closed: Any) -> None:
+    base = f"http://127.0.0.1:{closed.gate.port}/"
+    with urllib.request.urlopen(closed.gate.url(), timeout=5) as answer:
         assert b"ebac live" in answer.read()
         assert "default-src 'none'" in answer.headers["Content-Security-Policy"]
     assert status(base) == 403
     assert status(f"{base}?token=wrong") == 403
-    assert status(server.gate.url("watch")) == 200
-    assert status(server.gate.url(), Host="evil.example") == 403
-    assert status(f"{base}other?token={server.gate.control}") == 404
+    assert status(closed.gate.url("watch")) == 200
+    assert status(closed.gate.url(), Host="evil.example") == 403
+    assert status(f"{base}other?token={closed.gate.control}") == 404
 
 
 @pytest.mark.parametrize(
@@ -88,10 +95,10 @@ def test_the_page_needs_its_token_and_its_own_name(server: Any) -> None:
         ("", None),
     ],
 )
-def test_the_socket_needs_its_token_and_origin(server: Any, role: str, origin: str | None) -> None:
+def test_the_socket_needs_its_token_and_origin(closed: Any, role: str, origin: str | None) -> None:
     async def opened() -> None:
         with pytest.raises(InvalidStatus) as caught:
-            async with socket(server, role, origin):
+            async with socket(closed, role, origin):
                 pass
         assert caught.value.response.status_code == 403
 
@@ -127,7 +134,7 @@ def test_a_server_on_every_address_is_opened_by_the_name_of_its_machine() -> Non
         assert gate.url() == f"http://{socket.gethostname()}:8080/?token=c"
 
 
-def test_an_origin_must_be_given(server: Any) -> None:
+def test_an_origin_must_be_given() -> None:
     gate = Gate(host="127.0.0.1", port=80, control="c", watch="w")
     assert gate.refuses("/socket?token=c", host="127.0.0.1:80", origin=None, socket=True)
     assert gate.refuses("/?token=c", host=None, origin=None, socket=False)
