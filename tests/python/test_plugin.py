@@ -148,36 +148,31 @@ def test_a_folder_of_all_golden_traces_can_be_named(project: pytest.Pytester) ->
     assert (project.path / "tests" / "golden" / "test_wall.npz").exists()
 
 
-@pytest.mark.parametrize(
-    ("how", "message"),
-    [
-        ("columns=['x', 'nonsense']", "no column is called 'nonsense'; there are: "),
-        ("columns='f_env'", "columns = 'f_env': must be a sequence, such as ['f_env']"),
-        ("every=0", "every = 0: must be at least 1"),
-        ("every=2.5", "every = 2.5: must be a whole number"),
-        ("until=float('nan')", "stop = nan s: must be a time"),
-        ("tolerances={'x': 1e-3}", "tolerance for x takes a Tolerance, as in Tolerance(absolute="),
-        ("tolerances={'x': Tolerance(absolute='a')}", "Tolerance.absolute = 'a': must be a number"),
-        ("metric_tolerances={'swing_m': 'a'}", "tolerance of swing_m = 'a': must be a number"),
-        ("metric_tolerances={'swing': 1}", "metric 'swing': there are rest_m, "),
-        ("tolerances={'v': Tolerance(absolute=-1)}", "Tolerance.absolute = -1: must be finite"),
-        ("columns=['x'], tolerances={'q': Tolerance()}", "tolerance for q: compared are only t, x"),
-    ],
-)
-def test_what_cannot_be_asked_is_refused(project: pytest.Pytester, how: str, message: str) -> None:
-    project.makepyfile(
-        f"""
-        import ebac
-        from ebac.testing import Tolerance
+WRONG = [
+    ("columns=['x', 'nonsense']", "no column is called 'nonsense'; there are: "),
+    ("columns='f_env'", "columns = 'f_env': must be a sequence, such as ['f_env']"),
+    ("every=0", "every = 0: must be at least 1"),
+    ("every=2.5", "every = 2.5: must be a whole number"),
+    ("until=float('nan')", "stop = nan s: must be a time"),
+    ("tolerances={'x': 1e-3}", "tolerance for x takes a Tolerance, as in Tolerance(absolute="),
+    ("tolerances={'x': Tolerance(absolute='a')}", "Tolerance.absolute = 'a': must be a number"),
+    ("metric_tolerances={'swing_m': 'a'}", "tolerance of swing_m = 'a': must be a number"),
+    ("metric_tolerances={'swing': 1}", "metric 'swing': there are rest_m, "),
+    ("tolerances={'v': Tolerance(absolute=-1)}", "Tolerance.absolute = -1: must be finite"),
+    ("columns=['x'], tolerances={'q': Tolerance()}", "tolerance for q: compared are only t, x"),
+]
 
-        def test_it(ebac_trace):
-            ebac_trace.check(ebac.simulate(ebac.Scenario(seconds=0.1), "tca"), {how})
-        """
-    )
+
+def test_what_cannot_be_asked_is_refused(project: pytest.Pytester) -> None:
+    begin = "import ebac\nfrom ebac.testing import Tolerance\n"
+    begin += 'trace = ebac.simulate(ebac.Scenario(seconds=0.1), "tca")\n'
+    checks = [f"ebac_trace.check(trace, {how})" for how, _ in WRONG]
+    tests = [f"def test_{k}(ebac_trace): {check}\n" for k, check in enumerate(checks)]
+    project.makepyfile(begin + "".join(tests))
     for words in ([], ["--ebac-update"]):
-        result = project.runpytest_inprocess(*words)
-        result.assert_outcomes(failed=1)
-        assert message in told(result)
+        failed = project.inline_run(*words).getfailures("pytest_runtest_logreport")
+        for (how, message), one in zip(WRONG, failed, strict=True):
+            assert message in one.longreprtext, how
     assert not list(project.path.rglob("*.npz"))  # nor is a golden trace written
 
 
