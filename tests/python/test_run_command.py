@@ -104,7 +104,7 @@ def test_a_run_gives_rows_verdict_figure_and_a_log_that_others_read(
     assert json.loads(info.stdout)["command"] == "log info"
 
 
-def test_a_first_run_on_simulated_drives_is_in_free_air_and_its_log_tells_so(
+def test_a_first_run_on_simulated_drives_is_in_free_air_and_its_log_says_what_differs(
     config: Path, tmp_path: Path
 ) -> None:
     out = tmp_path / "out"
