@@ -47,7 +47,7 @@ class Printed:
         file = self.folder / (re.sub(r"[^\w.=,+]+", "-", command) + ".json")
         if not file.exists():
             print(f"ebac {command}", flush=True)
-            single = command.split()[0] in ("bench", "engines", "wall", "identify")
+            single = command.split()[0] in ("bench", "engines", "identify", "shapes", "wall")
             single |= command.startswith("gastroscopy") and "study" not in command
             many = self.threads is not None and not single
             words = [

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from population_tables import DAMPER, LAG
 from printed import Printed, Row, code, joules, table
 
 #: Columns of the table of engines: rate of the engine [Hz] and what is rendered.
@@ -58,7 +59,9 @@ def _judged(law: str, runs: Sequence[Row]) -> list[str]:
 
 
 def _runs(printed: Printed, stiffness: float) -> list[tuple[str, list[Row]]]:
-    rows = [row for row in printed.rows("shapes") if row["stiffness_N_per_m"] == stiffness]
+    observed = printed.rows(f"shapes --law {LAG},{DAMPER}")
+    found = [*printed.rows("shapes"), *observed]
+    rows = [row for row in found if row["stiffness_N_per_m"] == stiffness]
     laws = dict.fromkeys(row["law"] for row in rows)
     return [(law, [row for row in rows if row["law"] == law]) for law in laws]
 
