@@ -169,6 +169,19 @@ def test_its_fields_declare_what_is_shown_and_tuned() -> None:
     assert set(tuned["changes"]) <= {"damping"}
 
 
+@pytest.mark.parametrize("command", ["wall", "study -c d1K10", "worst --family impact"])
+def test_a_change_beyond_the_range_of_its_field_is_refused(command: str) -> None:
+    """Only `ebac tune` kept to the range."""
+    meta = '{"unit": "N s/m", "low": 0, "high": 90}'
+    text = MINE.replace("import dataclass", "import dataclass, field")
+    text = text.replace("= 30.0", f"= field(default=30.0, metadata={meta})")
+    Path("declares.py").write_text(text, encoding="utf-8")
+    words = [*command.split(), "--law", "declares.py:Damped", "--no-files", "--change"]
+    result = run(*words, "damping=-5")
+    assert result.exit_code == 2
+    assert "Damped.damping = -5 N s/m: must lie in [0, 90] N s/m" in " ".join(result.stderr.split())
+
+
 def test_a_search_changes_its_parameters_and_says_how_to_simulate_its_hand_again() -> None:
     command = "worst --law mine.py:Damped --family impact --evaluations 40 --seconds 0.5 --out"
     words = command.split()

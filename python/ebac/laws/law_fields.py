@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Sequence
+import math
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from ebac._core import Field
@@ -40,6 +41,34 @@ def fields_of(law: AnyLaw) -> Sequence[Field | PythonField]:
     if not dataclasses.is_dataclass(law):
         return ()
     return [_declared(law, one) for one in dataclasses.fields(law) if one.init]
+
+
+def refuse_outside(law: Any, changes: Mapping[str, Any]) -> None:
+    """Refuse values that lie outside the ranges that the fields of a law in Python declare.
+
+    Raises
+    ------
+    TypeError
+        For a value, or an end of a range, that is no number.
+    ValueError
+        For a value outside.
+    """
+    owner = law if isinstance(law, type) else type(law)
+    for field in (field for field in fields_of(law) if field.name in changes):
+        if field.low is None and field.high is None:
+            continue
+        name = f"{owner.__name__}.{field.name}"
+        value = number(name, changes[field.name])
+        low = -math.inf if field.low is None else field.low
+        high = math.inf if field.high is None else field.high
+        if not low <= value <= high:
+            unit = unit_of(field)
+            raise ValueError(f"{name} = {value:g}{unit}: must lie in [{low:g}, {high:g}]{unit}")
+
+
+def unit_of(field: Field | PythonField) -> str:
+    """Return the unit of a parameter after a space; "" where it has none."""
+    return f" {field.unit}" if field.unit not in ("1", None) else ""
 
 
 def _declared(law: Any, one: dataclasses.Field[Any]) -> PythonField:

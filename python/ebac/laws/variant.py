@@ -71,6 +71,8 @@ def changed(law: AnyLaw, **changes: Any) -> AnyLaw:
     ------
     TypeError
         For a law in Python that is no dataclass, or a parameter that it does not have.
+    ValueError
+        For a value outside the range of its parameter, which a law in Python declares in its fields.
     """
     if isinstance(law, Variant):
         return Variant(law.law, {**law.changes, **changes})
@@ -83,11 +85,14 @@ def changed(law: AnyLaw, **changes: Any) -> AnyLaw:
             f"the law {law_name(law)} has no parameters to change: those of a law in Python are the fields of a "
             "dataclass; put @dataclass above its class"
         )
+    from ebac.laws.law_fields import refuse_outside  # which needs this module
+
     own: Any = law
     refuse_unknown(type(law).__name__, changes, [one.name for one in dataclasses.fields(own)])
     for name, value in changes.items():
         if isinstance(value, bool) and not isinstance(getattr(own, name), bool):
             raise TypeError(f"{type(law).__name__}.{name} = {value}: must be a number")
+    refuse_outside(own, changes)
     return cast(PythonLaw, dataclasses.replace(own, **changes))
 
 

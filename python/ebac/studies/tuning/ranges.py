@@ -12,7 +12,7 @@ from ebac._core import Field
 from ebac._util.arguments import number, several, unknown_name
 from ebac._util.arrays import Values
 from ebac.laws import AnyLaw, law_name
-from ebac.laws.law_fields import PythonField, fields_of
+from ebac.laws.law_fields import PythonField, fields_of, unit_of
 
 Range: TypeAlias = tuple[float, float]
 
@@ -56,7 +56,11 @@ class Ranges:
                 value = (
                     low * (high / low) ** share if _wide(low, high) else low + (high - low) * share
                 )
-                found[name] = round(value) if name in self.whole else float(f"{value:.4g}")
+                found[name] = (
+                    round(value)
+                    if name in self.whole
+                    else min(max(float(f"{value:.4g}"), low), high)
+                )
         return found
 
     def place_of(self, changes: Mapping[str, float | bool]) -> Values:
@@ -94,15 +98,11 @@ def _declared(law: AnyLaw, field: Field | PythonField) -> Range:
     value = getattr(law, field.name)
     missing = [end for end in ("low", "high") if getattr(field, end) is None]
     raise ValueError(
-        f"{type(law).__name__}.{field.name} = {value:g}{_unit(field)}: declares no {' and no '.join(missing)}, so that "
-        f"there is no range to search; write {field.name}: {field.kind} = field(default={value:g}, "
+        f"{type(law).__name__}.{field.name} = {value:g}{unit_of(field)}: declares no {' and no '.join(missing)}, so "
+        f"that there is no range to search; write {field.name}: {field.kind} = field(default={value:g}, "
         f"metadata={{'unit': {field.unit or 'UNIT'!r}, 'low': LOW, 'high': HIGH}}), or make it a ClassVar if it is not "
         "to be tuned"
     )
-
-
-def _unit(field: Field | PythonField) -> str:
-    return f" {field.unit}" if field.unit not in ("1", None) else ""
 
 
 def _wide(low: float, high: float) -> bool:
@@ -125,7 +125,7 @@ def _check(law: AnyLaw, ranges: Mapping[str, Range]) -> None:
             raise ValueError(f"{name} = {ends}: must be its lowest and highest value, as (0.1, 10)")
         low, high = ends
         field = fields[name]
-        unit = _unit(field)
+        unit = unit_of(field)
         least = -math.inf if field.low is None else field.low
         most = math.inf if field.high is None else field.high
         if not (least <= low < high <= most and math.isfinite(high - low)):
