@@ -98,6 +98,33 @@ def test_a_law_in_python_is_tuned_within_the_ranges_that_its_fields_declare() ->
     assert rows[0].most_drawn_J == found.test[0].most_drawn_J
 
 
+def test_a_parameter_at_a_bound_of_its_range_is_named_with_a_remedy() -> None:
+    """A search ended at a bound without a word."""
+    own = tuning.ranges.Ranges(Own(), {"damping": (1, 100), "steps": (0, 2)})
+    assert own.at_bounds({"damping": 100.0, "steps": 1}) == (
+        "damping = 100 N s/m is at its upper bound: raise `high` if it may be more",
+    )
+    assert own.at_bounds({"damping": 1.0, "steps": 2}) == (
+        "damping = 1 N s/m is at its lower bound: reduce `low` if it may be less",
+        "steps = 2 is at the end of the range searched, [0, 2]: give a wider one in Python, "
+        "ebac.tune(..., ranges=...)",
+    )
+    assert own.at_bounds({}) == ()
+    built_in = tuning.ranges.Ranges("tca-damped", tuning.RANGES["tca-damped"])
+    (one,) = built_in.at_bounds({"virtual_damping": 200.0, "kp": 0.0})
+    assert one.startswith(
+        "virtual_damping = 200 N s/m is at the end of the range searched, [5, 200] N s/m: "
+    )
+
+
+def test_the_command_notes_a_parameter_at_a_bound(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(tuning.ranges, "AT_BOUND", 1.0)  # as if all were there
+    words = "tune sfa -c d1K10 --hands 2 --evaluations 8 --seconds 0.5 --threads 1"
+    result = CliRunner().invoke(app, words.split())
+    assert result.exit_code == 0, result.output
+    assert "Note: sfa, 1 sample of delay: " in result.stderr
+
+
 def test_each_delay_is_tuned_for_itself_with_the_same_result_every_time() -> None:
     first, second = (
         quick("sfa", ("d0K10", "d1K10", "d1K20"), evaluations=4, threads=n) for n in (1, 2)

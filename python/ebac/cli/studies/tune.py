@@ -191,6 +191,8 @@ def _show(found: list[Tuned]) -> None:
             f"{one.law}, {samples} of delay{acts}: {changes}; cost {one.default_cost:.3f} -> {one.cost:.3f}, "
             f"{one.tried} points"
         )
+        for line in one.at_bounds:
+            output.note(f"{one.law}, {samples} of delay: {line}")
     for line in (line for one in found for line in one.worse):
         output.note(f"{line}; search with more --hands or --evaluations, or keep the design")
     output.say("Simulated, not measured.", style="bold")

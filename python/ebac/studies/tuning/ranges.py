@@ -32,13 +32,18 @@ RANGES: dict[str, dict[str, Range]] = {
 }  # fmt: skip
 
 
+#: So near to an end of a range, as a share of it, a parameter counts as at its bound.
+AT_BOUND = 1e-3
+
+
 class Ranges:
     """The ranges of a law's parameters as a unit cube; a wide one that begins above 0 is logarithmic."""
 
     def __init__(self, law: AnyLaw, ranges: Mapping[str, Range]) -> None:
         _check(law, ranges)
         self.ranges = dict(ranges)
-        kinds = {f.name: f.kind for f in fields_of(law)}
+        self._fields = {f.name: f for f in fields_of(law)}
+        kinds = {f.name: f.kind for f in self._fields.values()}
         self.switches = {name for name, kind in kinds.items() if kind == "bool"}
         self.whole = {name for name, kind in kinds.items() if kind == "int"}
 
@@ -75,6 +80,33 @@ class Ranges:
             else:
                 shares.append((value - low) / (high - low))
         return np.asarray(np.clip(np.array(shares), 0, 1))
+
+    def at_bounds(self, changes: Mapping[str, float | bool]) -> tuple[str, ...]:
+        """Return which parameters stand at a bound of what was searched, and how to search beyond it.
+
+        Not those that a built-in law itself allows no further.
+        """
+        if not changes:
+            return ()
+        found = []
+        for share, name in zip(self.place_of(changes).tolist(), self.ranges, strict=True):
+            if name in self.switches or AT_BOUND < share < 1 - AT_BOUND:
+                continue
+            field, above = self._fields[name], share > 0.5
+            unit, span = unit_of(field), self.ranges[name]
+            value = f"{name} = {changes[name]:g}{unit}"
+            side, end = ("upper", "high") if above else ("lower", "low")
+            if span[above] != getattr(field, end):
+                found.append(
+                    f"{value} is at the end of the range searched, [{span[0]:g}, {span[1]:g}]{unit}: give a wider one "
+                    "in Python, ebac.tune(..., ranges=...)"
+                )
+            elif isinstance(field, PythonField):
+                remedy = (
+                    "raise `high` if it may be more" if above else "reduce `low` if it may be less"
+                )
+                found.append(f"{value} is at its {side} bound: {remedy}")
+        return tuple(found)
 
 
 def ranges_of(law: AnyLaw) -> Mapping[str, Range]:

@@ -75,6 +75,8 @@ class Tuned:
         Of the training hands, see `cost_of`.
     test, default : tuple of TunedRow
         One per condition, of the test hands: with these parameters, and with those of the design.
+    at_bounds : tuple of str
+        Which parameters found stand at a bound of their range, in words, and what to do.
     """
 
     law: str
@@ -87,6 +89,7 @@ class Tuned:
     default_cost: float
     test: tuple[TunedRow, ...]
     default: tuple[TunedRow, ...]
+    at_bounds: tuple[str, ...] = ()
 
     @property
     def worse(self) -> tuple[str, ...]:
@@ -107,7 +110,11 @@ class Tuned:
 
     def row(self) -> dict[str, Any]:
         """Return the documented row of `ebac tune --json`."""
-        return {name: value for name, value in asdict(self).items() if name != "variant"}
+        return {
+            name: value
+            for name, value in asdict(self).items()
+            if name not in ("variant", "at_bounds")
+        }
 
     def __repr__(self) -> str:
         """Return the parameters and how many test hands are good."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 
 from ebac._util.arguments import require, unknown_name, whole
 from ebac._util.progress import Progress
@@ -113,7 +114,8 @@ def tune(
             except KeyboardInterrupt:
                 stopped = True
             if search.tried:
-                done.append(_judged(search, delay, others, start, seed, threads))
+                found = _judged(search, delay, others, start, seed, threads)
+                done.append(replace(found, at_bounds=searched.at_bounds(found.changes)))
         except KeyboardInterrupt:  # before the search, or while its result was judged
             stopped = True
         if stopped:
