@@ -46,7 +46,7 @@ def check_end(path: str | Path) -> None:
         f"its last line has no end, so it may be cut: ...{last[0][-20:].decode(errors='replace')}"
     )
     if ours:
-        raise ValueError(f"{found}; use a copy of it or, if it is whole, end that line")
+        raise ValueError(f"{found}; delete the last line, or end it if it is whole")
     warnings.warn(
         f"{path}: {found}; check its last number, and end that line if it is whole", stacklevel=3
     )
