@@ -22,6 +22,8 @@ from ebac.drives.toml_positions import Source
 
 #: Bit rate of a bus where none is given [bit/s].
 _RATE = 1_000_000
+#: How people count the drives of a file.
+_PLACES = ("first", "second", "third", "fourth", "fifth", "sixth")
 #: How the name of a network begins that comes with the package.
 BUILT_IN = "the built-in "
 
@@ -227,7 +229,10 @@ def _nodes(source: Source) -> tuple[Node, ...]:
                 at, f"node[{i}].id = {found!r}: must be a whole number in [1, 127], the drive's own"
             )
         if found in [node.id for node in nodes]:
-            raise source.refuse(at, f"node[{i}].id = {found}: is the id of another node")
+            which = f"the {_PLACES[i]} [[node]]" if i < len(_PLACES) else f"[[node]] number {i + 1}"
+            raise source.refuse(
+                at, f"{which}: id = {found} is that of another node; must be unique, 1 to 127"
+            )
         name = table.get("name", "")
         if not isinstance(name, str):
             raise source.refuse(("node", i, "name"), f"node[{i}].name = {name!r}: must be text")
