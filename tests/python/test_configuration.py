@@ -166,6 +166,12 @@ def test_an_empty_one_is_the_paper_s_joystick() -> None:
             "not a TOML document: Expected newline or end of document after a statement (at line 2, column 10); "
             "give numbers a decimal point: 0.5",
         ),
+        (
+            "[limits]\nspeed = 0.5 m/s  # not more\n",
+            None,
+            "Expected newline or end of document after a statement (at line 2, column 13); "
+            "a number has no unit in TOML: leave out m/s, and give it in SI units",
+        ),
         ("[device.motor]\ntorque_constant = 0.06\n", None, "motor.torque_constant = 0.0538"),
         (
             "[device.motor]\ntorque_constant = 0.06\n",

@@ -6,6 +6,12 @@ import re
 import tomllib
 from typing import Any
 
+#: A line such as `seconds = 10 s`; not a number in another base, as 0x1F.
+_NUMBER_AND_UNIT = re.compile(
+    r"\s*[\w.-]+\s*=\s*[-+]?\d+(\.\d+)?([eE][-+]?\d+)?(\s+|(?![eExob_]))"
+    r"(?P<unit>[A-Za-zµμΩ°%][\w ./*^()²³·%°-]*?)\s*(#.*)?$"
+)
+
 
 def parsed(text: str) -> dict[str, Any]:
     """Return the table of a document.
@@ -25,7 +31,7 @@ def parsed(text: str) -> dict[str, Any]:
             raise ValueError(_key_again(text, int(again[1]))) from None
         twice = re.match(r"Cannot declare \((.*)\) twice(.*)", str(error))
         if twice is None:
-            hint = _comma(text, str(error))
+            hint = _comma(text, str(error)) or _with_unit(text, str(error))
             if not hint and str(error).startswith("Invalid value"):
                 hint = "; write true or false, a number without its unit, or text in quotes"
             raise ValueError(f"{error}{hint}") from None
@@ -44,8 +50,21 @@ def _key_again(text: str, line: int) -> str:
 
 def _comma(text: str, message: str) -> str:
     """Return a hint where the line of an error has a decimal comma; "" where it has none."""
-    line = re.search(r"\(at line (\d+)", message)
-    if line is None:
-        return ""
-    found = re.search(r"=\s*([-+]?\d+),(\d+)", text.split("\n")[int(line[1]) - 1])
+    found = re.search(r"=\s*([-+]?\d+),(\d+)", _line(text, message))
     return f"; give numbers a decimal point: {found[1]}.{found[2]}" if found else ""
+
+
+def _with_unit(text: str, message: str) -> str:
+    """Return a hint where the line of an error is a name, a number and a unit; "" where it is not."""
+    found = _NUMBER_AND_UNIT.match(_line(text, message))
+    return (
+        f"; a number has no unit in TOML: leave out {found['unit']}, and give it in SI units"
+        if found
+        else ""
+    )
+
+
+def _line(text: str, message: str) -> str:
+    """Return the line that a message of the parser names; "" where it names none."""
+    found = re.search(r"\(at line (\d+)", message)
+    return text.split("\n")[int(found[1]) - 1] if found else ""
