@@ -320,6 +320,21 @@ def test_drives_that_let_through_more_than_the_motor_is_to_take_are_noted() -> N
     )
 
 
+def test_another_motor_without_a_thermal_time_of_its_own_is_noted() -> None:
+    start = '[bus]\ndrives = "handle"\n[device]\npreset = "reference"\n'
+    other = f"{start}[device.motor]\ntorque_constant = 0.0255\nrated_torque = 0.03\n"
+
+    def said(text: str) -> list[str]:
+        return [
+            one for one in doubtful_run.doubts(Configuration.from_toml(text)) if "thermal" in one
+        ]
+
+    (note,) = said(other)
+    assert note.startswith("limits.thermal_time is not given: 16 s of an RE 30 are taken")
+    assert said(f"{other}[limits]\nthermal_time = 16.0\n") == []
+    assert said(start) == []
+
+
 def test_limits_that_hardly_protect_are_noted() -> None:
     known = Configuration.load(EXAMPLE)
     loose = known.replace(limits=known.limits.replace(speed=100.0, end=1.0, pause=0.2))

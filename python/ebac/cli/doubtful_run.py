@@ -48,6 +48,7 @@ def doubts(known: Configuration) -> list[str]:
         *_weight_of_the_joystick(known),
         *_edge_behind_the_stops(known),
         *doubtful_drives.doubts(known),
+        *_winding_of_the_reference(known),
         *_loose_limits(known),
         *_sensor_of_the_device_alone(known),
         *_other_device_of_the_law(known),
@@ -58,6 +59,20 @@ def _other_device_of_the_law(known: Configuration) -> list[str]:
     device, timing = known.device, known.timing
     has_sensor = known.sensor is not None
     return doubtful_law.doubts(known.law, known.changes, device, timing, sensor=has_sensor)
+
+
+def _winding_of_the_reference(known: Configuration) -> list[str]:
+    from ebac._core import Limits, Motor
+    from ebac._util.toml import parsed
+
+    time = known.limits.thermal_time
+    given = "thermal_time" in parsed(known.text).get("limits", {})
+    if given or time != Limits.of(known.device).thermal_time or known.device.motor == Motor():
+        return []
+    return [
+        f"limits.thermal_time is not given: {time:g} s of an RE 30 are taken, but [device.motor] is another motor, "
+        "which may burn; give the thermal time constant of the winding [s] from its data sheet"
+    ]
 
 
 def _sensor_of_the_device_alone(known: Configuration) -> list[str]:
