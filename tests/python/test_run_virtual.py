@@ -321,18 +321,18 @@ def test_drives_that_let_through_more_than_the_motor_is_to_take_are_noted() -> N
 
 
 def test_another_motor_without_a_thermal_time_of_its_own_is_noted() -> None:
-    start = '[bus]\ndrives = "handle"\n[device]\npreset = "reference"\n'
-    other = f"{start}[device.motor]\ntorque_constant = 0.0255\nrated_torque = 0.03\n"
+    def said(text: str, **motor: float) -> list[str]:
+        known = Configuration.from_toml(
+            f'[bus]\ndrives = "handle"\n[device]\npreset = "reference"\n{text}'
+        )
+        device = known.device.replace(motor=known.device.motor.replace(**motor))
+        found = doubtful_run.doubts(known.replace(device=device))
+        return [one for one in found if "thermal" in one]
 
-    def said(text: str) -> list[str]:
-        return [
-            one for one in doubtful_run.doubts(Configuration.from_toml(text)) if "thermal" in one
-        ]
-
-    (note,) = said(other)
+    (note,) = said("", rotor_inertia=14e-7)
     assert note.startswith("limits.thermal_time is not given: 16 s of an RE 30 are taken")
-    assert said(f"{other}[limits]\nthermal_time = 16.0\n") == []
-    assert said(start) == []
+    assert said("[limits]\nthermal_time = 16.0\n", rotor_inertia=14e-7) == []
+    assert said("") == []
 
 
 def test_limits_that_hardly_protect_are_noted() -> None:
