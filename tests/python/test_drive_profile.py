@@ -610,6 +610,7 @@ def test_comments_of_a_profile_for_a_motor_are_true() -> None:
     assert "peak_torque = 0.075        # N m, 2.5 times rated\n" in text
     assert "four" not in text
     assert "42.4 N" not in text
+    assert "0.0540" not in profile_for("joystick", device)
 
 
 @pytest.mark.parametrize(

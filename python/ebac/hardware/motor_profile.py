@@ -65,6 +65,8 @@ def _lines(source: Source, device: Device, whose: str) -> Iterator[str]:
     values = {} if "node" in source.table else _values(read_profile(source), device)
     table = ""
     for line in source.text.splitlines():
+        if line.startswith("# motor."):  # a key that is commented out, of another motor
+            continue
         if heading := re.match(r"\[([\w.]+)\]", line):
             table = heading[1]
         found = _KEY.match(line)
