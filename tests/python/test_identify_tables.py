@@ -39,7 +39,6 @@ def test_levels_of_a_target_are_explained_where_they_occur() -> None:
     assert "X0/1, X0/2: where the hand wants to be" in shown("arm", "tapping.mcap")
     assert "X0/1" not in shown("arm", "arm.csv")
     assert "NAME@2: of the second log" not in shown("arm", "arm.csv")
-    Path("again.csv").write_text(
-        "\n".join(Path("arm.csv").read_text().splitlines()[:-1])
-    )  # no copy
+    lines = Path("arm.csv").read_text().splitlines(keepends=True)
+    Path("again.csv").write_text("".join(lines[:-1]))  # no copy
     assert "NAME@2: of the second log" in shown("arm", "arm.csv", "again.csv")
