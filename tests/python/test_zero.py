@@ -360,6 +360,7 @@ def test_the_command_reads_and_writes_the_zero(tmp_path: Path) -> None:
     assert path.read_text(encoding="utf-8") == before
     done = command("drive", "zero", str(path), "--simulated", "--write")
     assert "zero.counts = [12345, -7]" in said(done)
+    assert "[zero] is of the simulated device; find it again on yours" in done.output
     old, new = said(done).split("Written to")
     assert "By the old zero:" in old
     assert "368.74 mm inside the wall" in old

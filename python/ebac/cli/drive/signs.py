@@ -84,6 +84,10 @@ def signs(
         with output.refusing():
             right = Signs(motor=tuple(motor), encoder=tuple(encoder))
             rewrite(configuration, right.written_into)
+        if simulated:
+            output.note(
+                f"{configuration}: [signs] is of the simulated device; find it again on yours"
+            )
     if as_json:
         typer.echo(output.document("drive signs", [asdict(row) for row in rows], written=written))
     else:

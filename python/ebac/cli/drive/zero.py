@@ -69,6 +69,10 @@ def zero(
         found, right = now, Zero(counts=tuple(one.counts for one in now))
         with output.refusing():
             rewrite(configuration, right.written_into)
+        if simulated:
+            output.note(
+                f"{configuration}: [zero] is of the simulated device; find it again on yours"
+            )
         by_new_zero = known.replace(zero=right)
     if as_json:
         rows = [one.row() for one in found]
