@@ -3,6 +3,7 @@
 import json
 import time
 from collections.abc import Callable, Iterator
+from importlib.resources import files
 from itertools import count
 from pathlib import Path
 from types import SimpleNamespace
@@ -210,8 +211,16 @@ def pushed(tmp_path: Path) -> Iterator[tuple[Path, Push]]:
     path = wired(tmp_path, list(MOTOR), list(ENCODER), sensor=False)
     channel = f"signs-{next(_numbers)}"
     text = path.read_text(encoding="utf-8")
+    profile = (files("ebac.drives") / "profiles" / "copley-accelnet.toml").read_text("utf-8")
+    for before in ("event = 0.005", "consumer = 0.1"):  # a busy loop is no dead one
+        assert before in profile
+        profile = profile.replace(before, before.partition("=")[0] + "= 0.5")
+    (tmp_path / "patient.toml").write_text(profile, "utf-8")
+    drives = tmp_path / "drives.toml"
+    drives.write_text("".join(f"[[node]]\nid = {i}\nprofile = 'patient.toml'\n" for i in (1, 2)))
     for before, after in (
         ('"socketcan"', '"ebac"'), ('"can0"', f'"{channel}"'), ('"verify"', '"apply"'),
+        ('"joystick"', f'"{drives}"'),
     ):  # fmt: skip
         text = text.replace(before, after, 1)
     path.write_text(text[: text.index("[simulated.signs]")], encoding="utf-8")
