@@ -27,7 +27,8 @@ from ebac.hardware import (
     find_encoder_signs,
     find_signs,
 )
-from ebac.hardware.find_signs import judged
+from ebac.hardware.find_signs import gentle, judged
+from ebac.hardware.rating import beyond_rating
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 #: A busy machine is no wrong sign.
@@ -115,6 +116,26 @@ def test_a_long_soft_start_does_not_weaken_the_pushes(tmp_path: Path) -> None:
 def test_a_current_out_of_range_is_refused() -> None:
     with pytest.raises(ValueError, match=r"current = 1 A: must lie in \[0.02, 0.3\] A"):
         find_signs(Configuration.from_toml(""), current=1)
+
+
+def test_a_push_beyond_a_small_motor_names_the_option_of_its_current() -> None:
+    known = Configuration.from_toml("")
+    for torque, remedy in ((1e-3, "give less: `--current 0.074`"), (1e-4, "at least 0.02 A")):
+        motor = known.device.motor.replace(rated_torque=torque)
+        small = known.replace(device=known.device.replace(motor=motor))
+        with pytest.raises(ValueError, match=r"current = 0\.1 A: is beyond the peak") as refused:
+            find_signs(small, simulate=True)
+        assert remedy in str(refused.value)
+        ones = Signs().of_all(1)
+        still = judged(0, 1, ones, np.zeros((2, 2)), small.device, 0.074, sensor=False)
+        assert "A is the most of this test" in still.remark
+
+
+def test_limits_of_the_file_beyond_the_motor_do_not_stop_the_pushes() -> None:
+    """The command has no option that allows them, and needs neither."""
+    known = Configuration.from_toml("[limits]\ncontinuous_current = 2.0\nthermal_time = 40.0\n")
+    assert len(beyond_rating(known)) == 2
+    assert not beyond_rating(gentle(known, 0.1))
 
 
 @pytest.mark.real_time

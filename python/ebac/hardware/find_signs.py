@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ebac._core import Device, Elastic, Free, LoopState, Plane, Step, Wall
+from ebac._core import Device, Elastic, Free, Limits, LoopState, Plane, Step, Wall
 from ebac.hardware.configuration import Configuration
 from ebac.hardware.device import OpenDevice
 from ebac.hardware.run import Run
@@ -71,11 +71,18 @@ class AxisSigns:
         return (self.motor, self.encoder) == (self.configured_motor, self.configured_encoder)
 
 
+def most_current(device: Device) -> float:
+    """Return the largest current [A] that a push may have: no more than the peak of the motor, in whole mA."""
+    return min(MOST_CURRENT, math.floor(1e3 * device.drive.peak_current(device.motor)) / 1e3)
+
+
 def gentle(known: Configuration, current: float) -> Configuration:
     """Return the configuration of the test: no wall, no law, at most `current` [A] that comes in slowly."""
+    rated = Limits.of(known.device)
     limits = known.limits.replace(
         peak_current=current,
-        continuous_current=min(current, known.limits.continuous_current),
+        continuous_current=min(current, known.limits.continuous_current, rated.continuous_current),
+        thermal_time=min(known.limits.thermal_time, rated.thermal_time),
         slew=_SLEW,
         edge_stiffness=0.0,
         watch_motion=False,
@@ -113,7 +120,7 @@ def find_signs(
     simulate : bool
         Whether simulated drives stand in for the real ones.
     current : float
-        Current of every push [A], 0.02 to 0.3.
+        Current of every push [A], 0.02 to 0.3, and no more than the peak of the motor.
     encoder : sequence of int, optional
         The correct sign of each encoder, 1 or -1, where it is known.
     look : callable
@@ -131,6 +138,16 @@ def find_signs(
     if not LEAST_CURRENT <= current <= MOST_CURRENT:
         raise ValueError(
             f"current = {current:g} A: must lie in [{LEAST_CURRENT}, {MOST_CURRENT}] A"
+        )
+    if current > (most := most_current(known.device)):
+        remedy = (
+            f"give less: `--current {most:g}` (in Python current={most:g})"
+            if most >= LEAST_CURRENT
+            else f"a push needs at least {LEAST_CURRENT} A, so look at both"
+        )
+        raise ValueError(
+            f"current = {current:g} A: is beyond the peak of the motor, {most:g} A (device.motor.rated_torque, "
+            f"device.drive.peak_ratio); {remedy}"
         )
     axes = known.device.axes
     right: Sequence[int | None] = (None,) * axes
@@ -243,9 +260,7 @@ def judged(
         "force_N": float(reaction.mean()) if held else None,
     }
     if not (np.abs(ways) > LEAST).all():
-        remark = (
-            f"did not move: let go of the handle, look at friction, brake and drive{_more(current)}"
-        )
+        remark = f"did not move: let go of the handle, look at friction, brake and drive{_more(current, device)}"
         return AxisSigns(**shown, motor=None, encoder=None, remark=remark)
     if ways[0] * ways[1] < 0:
         remark = "moved the same way under both forces: something else pushes; let go of the handle"
@@ -271,9 +286,12 @@ def judged(
     )
 
 
-def _more(current: float) -> str:
+def _more(current: float, device: Device) -> str:
     """Return the remedy of a larger current, where the test may use one."""
-    if current >= MOST_CURRENT:
-        return f"; {MOST_CURRENT} A is the most of this test"
-    better = min(2 * current, MOST_CURRENT)
-    return f", or give more: `--current {better:g}` (at most {MOST_CURRENT} A; in Python current={better:g})"
+    most = most_current(device)
+    if current >= most:
+        return f"; {most:g} A is the most of this test"
+    better = min(2 * current, most)
+    return (
+        f", or give more: `--current {better:g}` (at most {most:g} A; in Python current={better:g})"
+    )
