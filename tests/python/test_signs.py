@@ -205,6 +205,40 @@ def test_signs_are_written_line_by_line(text: str) -> None:
     assert known.seconds == Configuration.from_toml(text).seconds
 
 
+@pytest.mark.parametrize("text", ["", "[signs] # mine\r\nmotor = [1, 1] # left\r\n"])
+def test_a_comment_marks_signs_of_the_simulated_device(text: str) -> None:
+    simulated = Signs(motor=(-1, 1), encoder=(1, -1))
+    made = simulated.written_into(text, simulated=True)
+    assert made == simulated.written_into(made, simulated=True)
+    assert made.count("] # of the simulated device") + made.count("# left # of the sim") == 2
+    found = Signs(motor=(1, 1), encoder=(1, 1))
+    assert found.written_into(made) == found.written_into(text)
+
+
+def test_the_command_marks_the_signs_of_a_rehearsal_until_hardware_shows_its_own(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    path = wired(tmp_path, [1, 1], [1, 1])
+
+    def found(known: Configuration, *, simulate: bool, **_: Any) -> list[AxisSigns]:
+        signs = known.signs.of_all(2)
+        way = 4e-3 if simulate else -4e-3
+        pushes = np.array([[way, 1.0], [way, 1.0]])
+        return [judged(i, i + 1, signs, pushes, known.device, 0.1, sensor=True) for i in (0, 1)]
+
+    monkeypatch.setattr("ebac.hardware.find_signs", found)
+    rehearsed = CliRunner().invoke(app, ["drive", "signs", str(path), "--simulated", "--write"])
+    said = " ".join(rehearsed.output.split())
+    assert "[signs] is of the simulated device; find it again on yours" in said
+    after = path.read_text(encoding="utf-8")
+    assert after.count("# of the simulated device: find it again on yours") == 2
+    wired_right = Configuration.load(path).signs
+    done = CliRunner().invoke(app, ["drive", "signs", str(path), "--write", "--yes"])
+    assert done.exit_code == 0, done.output
+    assert "of the simulated device" not in done.output + path.read_text(encoding="utf-8")
+    assert Configuration.load(path).signs == wired_right
+
+
 def test_signs_in_another_form_are_left_alone() -> None:
     with pytest.raises(ValueError, match="by hand"):
         Signs(motor=(-1,), encoder=(1,)).written_into("signs = { motor = [1] }\n")

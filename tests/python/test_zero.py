@@ -361,6 +361,8 @@ def test_the_command_reads_and_writes_the_zero(tmp_path: Path) -> None:
     done = command("drive", "zero", str(path), "--simulated", "--write")
     assert "zero.counts = [12345, -7]" in said(done)
     assert "[zero] is of the simulated device; find it again on yours" in done.output
+    mark = "counts = [12345, -7] # of the simulated device: find it again on yours\n"
+    assert mark in path.read_text(encoding="utf-8")
     old, new = said(done).split("Written to")
     assert "By the old zero:" in old
     assert "368.74 mm inside the wall" in old
@@ -374,6 +376,8 @@ def test_the_command_reads_and_writes_the_zero(tmp_path: Path) -> None:
 
 
 def test_on_real_drives_it_asks(mine: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    rehearsed = Zero(counts=(3, 4)).written_into(mine.read_text(encoding="utf-8"), simulated=True)
+    mine.write_text(rehearsed, encoding="utf-8")
     before = mine.read_text(encoding="utf-8")
     done = command("drive", "zero", str(mine), "--write")
     assert done.exit_code == 2
@@ -385,6 +389,7 @@ def test_on_real_drives_it_asks(mine: Path, monkeypatch: pytest.MonkeyPatch) -> 
     done = command("drive", "zero", str(mine), "--write", input="y\n")
     assert done.exit_code == 0, done.output
     assert Configuration.load(mine).zero == Zero(counts=BEGIN)
+    assert "of the simulated device" not in mine.read_text(encoding="utf-8")
 
 
 def test_a_handle_that_moves_meanwhile_is_no_zero(

@@ -55,8 +55,10 @@ class Signs:
             motor=_product(self.motor, needed.motor), encoder=_product(self.encoder, needed.encoder)
         )
 
-    def written_into(self, text: str) -> str:
+    def written_into(self, text: str, *, simulated: bool = False) -> str:
         """Return the TOML text of a configuration with these signs; every other line stays as it is.
+
+        With `simulated`, a comment says that they are of the simulated device; without it such a comment goes.
 
         Raises
         ------
@@ -64,7 +66,8 @@ class Signs:
             When the signs are written in a form that cannot be changed line by line.
         """
         wanted = {"motor": self.motor, "encoder": self.encoder}
-        return with_table(text, "signs", wanted, "one for each axis, found by `ebac drive signs`")
+        note = "one for each axis, found by `ebac drive signs`"
+        return with_table(text, "signs", wanted, note, simulated=simulated)
 
 
 def _product(one: Sequence[int], other: Sequence[int]) -> tuple[int, ...]:

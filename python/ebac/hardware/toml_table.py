@@ -9,10 +9,19 @@ from pathlib import Path
 
 from ebac._util.atomic_file import write_text
 
+#: Behind values that were found on simulated drives.
+SIMULATED = "# of the simulated device: find it again on yours"
 _ANY_TABLE = re.compile(r"^\s*\[")
 
 
-def with_table(text: str, name: str, wanted: Mapping[str, Sequence[int]], note: str) -> str:
+def with_table(
+    text: str,
+    name: str,
+    wanted: Mapping[str, Sequence[int]],
+    note: str,
+    *,
+    simulated: bool = False,
+) -> str:
     """Return the TOML text with these lists of whole numbers in the table `name`.
 
     Parameters
@@ -25,6 +34,9 @@ def with_table(text: str, name: str, wanted: Mapping[str, Sequence[int]], note: 
         The lists by key; other keys of the table stay.
     note : str
         Comment behind the heading of a table that is added.
+    simulated : bool
+        Whether the numbers are of the simulated device: then a comment behind each list says so, otherwise such a
+        comment goes.
 
     Raises
     ------
@@ -33,19 +45,24 @@ def with_table(text: str, name: str, wanted: Mapping[str, Sequence[int]], note: 
     """
     heading = re.compile(rf"^\s*\[{re.escape(name)}\]\s*(#.*)?$")
     values = {key: list(numbers) for key, numbers in wanted.items()}
+    mark = f" {SIMULATED}" if simulated else ""
     ending = "\r\n" if "\r\n" in text else "\n"
     if text and not text.endswith("\n"):
         text += ending
     lines = text.splitlines(keepends=True)
     start = next((i for i, line in enumerate(lines) if heading.match(line)), None)
     if start is None:
-        block = "".join(f"{key} = {numbers}{ending}" for key, numbers in values.items())
+        block = "".join(f"{key} = {numbers}{mark}{ending}" for key, numbers in values.items())
         made = f"{text}{ending}[{name}] # {note}{ending}{block}"
     else:
         after = range(start + 1, len(lines))
         end = next((i for i in after if _ANY_TABLE.match(lines[i])), len(lines))
         made = "".join(
-            [*lines[: start + 1], *_changed(lines[start + 1 : end], values, ending), *lines[end:]]
+            [
+                *lines[: start + 1],
+                *_changed(lines[start + 1 : end], values, mark, ending),
+                *lines[end:],
+            ]
         )
     if not _holds(made, name, values):
         raise ValueError(f"{name} cannot be written line by line: set {values} by hand")
@@ -68,14 +85,17 @@ def _holds(text: str, name: str, values: Mapping[str, list[int]]) -> bool:
     return isinstance(found, dict) and all(found.get(key) == one for key, one in values.items())
 
 
-def _changed(lines: list[str], wanted: Mapping[str, list[int]], ending: str) -> list[str]:
-    """Return the lines of the table with the wanted values; comments stay."""
+def _changed(
+    lines: list[str], wanted: Mapping[str, list[int]], mark: str, ending: str
+) -> list[str]:
+    """Return the lines of the table with the wanted values and mark; other comments stay."""
     kept = list(lines)
     for name, numbers in wanted.items():
         key = re.compile(rf"^(\s*{name}\s*=\s*)\[[^\]]*\]")
         at = next((i for i, line in enumerate(kept) if key.match(line)), None)
         if at is None:
-            kept.insert(0, f"{name} = {numbers}{ending}")
+            kept.insert(0, f"{name} = {numbers}{mark}{ending}")
         else:
-            kept[at] = key.sub(rf"\g<1>{numbers}", kept[at])
+            line = key.sub(rf"\g<1>{numbers}", kept[at]).replace(SIMULATED, "").rstrip()
+            kept[at] = f"{line}{mark}{ending}"
     return kept

@@ -57,8 +57,10 @@ class Zero:
         """Return the counts of every axis, given explicitly."""
         return self.counts or (0,) * axes
 
-    def written_into(self, text: str) -> str:
+    def written_into(self, text: str, *, simulated: bool = False) -> str:
         """Return the TOML text of a configuration with these counts; every other line stays as it is.
+
+        With `simulated`, a comment says that they are of the simulated device; without it such a comment goes.
 
         Raises
         ------
@@ -66,7 +68,7 @@ class Zero:
             When the zero is written in a form that cannot be changed line by line.
         """
         note = "counts of each drive with the handle at its zero, by `ebac drive zero`"
-        return with_table(text, "zero", {"counts": self.counts}, note)
+        return with_table(text, "zero", {"counts": self.counts}, note, simulated=simulated)
 
 
 def from_zero(counts: int, zero: int) -> int:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import asdict
+from functools import partial
 from typing import TYPE_CHECKING, Annotated
 
 import typer
@@ -52,7 +53,7 @@ def signs(
     from ebac.hardware import Configuration, Signs, find_encoder_signs, find_signs
     from ebac.hardware.axis_positions import axis_name
     from ebac.hardware.lateness import explained
-    from ebac.hardware.toml_table import rewrite
+    from ebac.hardware.toml_table import SIMULATED, rewrite
     from ebac.simulation import LoopFault
 
     with telling():
@@ -79,11 +80,12 @@ def signs(
     motor = [row.motor for row in rows if row.motor is not None]
     encoder = [row.encoder for row in rows if row.encoder is not None]
     found = len(motor) == len(rows)
-    written = write and found and not all(row.right for row in rows)
+    rehearsed = not simulated and bool(known.signs.motor) and SIMULATED in known.text
+    written = write and found and (rehearsed or not all(row.right for row in rows))
     if written:
         with output.refusing():
             right = Signs(motor=tuple(motor), encoder=tuple(encoder))
-            rewrite(configuration, right.written_into)
+            rewrite(configuration, partial(right.written_into, simulated=simulated))
         if simulated:
             output.note(
                 f"{configuration}: [signs] is of the simulated device; find it again on yours"

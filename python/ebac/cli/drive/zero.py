@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import Annotated
 
 import typer
@@ -68,7 +69,7 @@ def zero(
                 )
         found, right = now, Zero(counts=tuple(one.counts for one in now))
         with output.refusing():
-            rewrite(configuration, right.written_into)
+            rewrite(configuration, partial(right.written_into, simulated=simulated))
         if simulated:
             output.note(
                 f"{configuration}: [zero] is of the simulated device; find it again on yours"
