@@ -343,7 +343,9 @@ def test_a_first_run_is_in_free_air_with_small_limits_and_else_the_same() -> Non
     assert first.text.startswith(known.text)
     assert "\n# environment: free air instead of the engine, python mine.py\n" in first.text
     assert "\n# law.kp: 0 instead of 0.5, so that" in first.text
-    assert "\n# limits.peak_current: 0.1 A instead of 3.941 A\n" in first.text
+    assert (
+        "\n# limits.peak_current: 0.1 A (1.08 N at the handle) instead of 3.941 A\n" in first.text
+    )
     assert "speed: " not in first.text
     again = Configuration.from_toml(first.text)
     assert again.limits == known.limits, "what differs are comments"

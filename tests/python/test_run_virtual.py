@@ -50,8 +50,8 @@ def test_a_first_run_prints_and_records_what_it_changes(tmp_path: Path) -> None:
     lines = [
         "environment: free air instead of a wall of 10 kN/m at 10 mm",
         "law.kp: 0 instead of 0.5, so that the law feeds no force back",
-        "limits.peak_current: 0.1 A instead of 3.941 A",
-        "limits.continuous_current: 0.1 A instead of 0.9851 A",
+        "limits.peak_current: 0.1 A (1.08 N at the handle) instead of 3.941 A",
+        "limits.continuous_current: 0.1 A (1.08 N at the handle) instead of 0.9851 A",
     ]
     assert [f"First run, {line}" for line in lines] == done.stdout.splitlines()[:4]
     (kept,) = out.glob("*.json")

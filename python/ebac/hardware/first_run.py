@@ -43,4 +43,7 @@ def differences(known: Configuration, first: Configuration) -> Iterator[str]:
     for name in MOST:
         was, now = getattr(known.limits, name), getattr(first.limits, name)
         if was != now:
-            yield f"limits.{name}: {now:g} {units[name]} instead of {was:.4g} {units[name]}"
+            force = (
+                f" ({first.device.force(now):.3g} N at the handle)" if units[name] == "A" else ""
+            )
+            yield f"limits.{name}: {now:g} {units[name]}{force} instead of {was:.4g} {units[name]}"
