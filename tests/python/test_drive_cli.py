@@ -57,9 +57,15 @@ def said(result: Any) -> str:
 @pytest.mark.parametrize(
     ("old", "new", "message"),
     [
-        ("max_torque = 0.212", "max_torque = 0.3",
-         "node 1 of mine.toml: limits.max_torque = 0.3 N m: 5.66 times limits.rated_torque = 0.053 N m; usual are "
+        ("peak_torque = 0.212", "peak_torque = 0.3",
+         "node 1 of mine.toml: motor.peak_torque = 0.3 N m: 5.66 times limits.rated_torque = 0.053 N m; usual are "
          "at most 5 times"),
+        ("max_torque = 0.212", "max_torque = 0.25",
+         "node 1 of mine.toml: limits.max_torque = 0.25 N m, more than the peak of the motor, 0.212 N m "
+         "(motor.peak_torque): the drive does not protect this motor; give at most 0.212 in the profile, or a higher "
+         "motor.peak_torque where the motor takes more"),
+        ("max_current = 3.94", "max_current = 4.5",
+         "node 1 of mine.toml: limits.max_current = 4.5 A, more than the peak of the motor, 3.94 A "),
         ("event = 0.005", "event = 5",
          "node 1 of mine.toml: pdo.rpdo1.event = 5 s: for so long the drive waits for the next one from the loop; "
          "usual are at most 0.1 s. The key is in s: 5 ms is 0.005 s."),

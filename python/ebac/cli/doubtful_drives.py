@@ -47,5 +47,5 @@ def _weak(known: Configuration) -> list[str]:
 def _strong(known: Configuration) -> list[str]:
     from ebac.hardware.drive_limits import above_peak
 
-    found = above_peak(known.device, known.drives)
+    found = above_peak(known.drives, known.device)
     return [f"{text}; {remedy}" for _, text, remedy in found]

@@ -47,45 +47,58 @@ def allowed_ratio(network: Network) -> tuple[float, str]:
     return least, key
 
 
-def above_peak(device: Device, network: Network) -> list[tuple[str, str, str]]:
-    """Return each limit of the drives that lets through more than the device's motor is to take.
+def above_peak(network: Network, device: Device | None = None) -> list[tuple[str, str, str]]:
+    """Return each limit of the drives that lets through more than their motor is to take.
 
     Parameters
     ----------
-    device : Device
-        Its peak is `drive.peak_ratio` times the rated torque of its motor.
     network : Network
         The drives, whose own limits hold where the loop is wrong.
+    device : Device, optional
+        The peak is `drive.peak_ratio` times the rated torque of its motor; without it, that of `motor.peak_torque` in
+        each profile that has one.
 
     Returns
     -------
     list of (key, sentence, remedy)
         One for all nodes with the same value.
     """
-    motor = device.motor
-    torque = device.drive.peak_ratio * motor.rated_torque
-    current = device.drive.peak_current(motor)
     alike: dict[tuple[str, float, float], list[str]] = {}
-    for name, peak in (
-        ("limits.max_torque", torque),
-        ("limits.max_current", current),
-        ("motor.peak_torque", torque),
-    ):
-        for node in network.nodes:
+    for node in network.nodes:
+        for name, peak in _peaks(node.profile, device).items():
             value = node.profile.values.get(name)
             if value is not None and float(value) > peak * (1 + _SAME_PEAK):
                 alike.setdefault((name, float(value), peak), []).append(str(node.id))
-    ratio = f"device.drive.peak_ratio {device.drive.peak_ratio:g} x the motor's rating"
+    whose, by, higher = ("motor", "motor.peak_torque", "motor.peak_torque")
+    if device is not None:
+        by = f"device.drive.peak_ratio {device.drive.peak_ratio:g} x the motor's rating"
+        whose, higher = "device", "peak_ratio"
     found = []
     for (name, value, peak), ids in alike.items():
         key, nodes = BY_NAME[name], f"{'node' if len(ids) == 1 else 'nodes'} {', '.join(ids)}"
         sentence = (
-            f"{nodes} of {network.name}: {name} = {key.show(value)}, more than the peak of the device, {peak:.4g} "
-            f"{key.unit} ({ratio}): the drive does not protect this motor"
+            f"{nodes} of {network.name}: {name} = {key.show(value)}, more than the peak of the {whose}, {peak:.4g} "
+            f"{key.unit} ({by}): the drive does not protect this motor"
         )
-        remedy = f"give at most {peak:.4g} in the profile, or a higher peak_ratio where the motor takes more"
+        remedy = f"give at most {peak:.4g} in the profile, or a higher {higher} where the motor takes more"
         found.append((name, sentence, remedy))
     return found
+
+
+def _peaks(profile: Profile, device: Device | None) -> dict[str, float]:
+    """Return the largest value of each limit by the motor of the device, or of the profile."""
+    if device is not None:
+        torque = device.drive.peak_ratio * device.motor.rated_torque
+        current = device.drive.peak_current(device.motor)
+        return dict(zip((*_LIMITS, "motor.peak_torque"), (torque, current, torque), strict=True))
+    peak, rated = (
+        profile.values.get(name) for name in ("motor.peak_torque", "limits.rated_torque")
+    )
+    if peak is None or rated is None:
+        return {}
+    ratio = float(peak) / float(rated)
+    each = {name: profile.values.get(BY_NAME[name].per) for name in _LIMITS}
+    return {name: ratio * float(one) for name, one in each.items() if one is not None}
 
 
 def held_back(device: Device, network: Network) -> Device:

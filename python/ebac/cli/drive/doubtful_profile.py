@@ -11,11 +11,12 @@ if TYPE_CHECKING:
     from ebac.drives import Network
     from ebac.drives.profile import Profile
 
+_PEAK = "motor.peak_torque"
 #: Limits of a drive, and the rated value of each.
 _OF_RATED = (
     ("limits.max_torque", "limits.rated_torque"),
     ("limits.max_current", "limits.rated_current"),
-    ("motor.peak_torque", "limits.rated_torque"),
+    (_PEAK, "limits.rated_torque"),
 )
 #: How many times the rated value makes a limit doubtful: the drive of the paper's motor gives 4 times.
 PEAK = 5.0
@@ -31,11 +32,14 @@ def note(network: Network) -> None:
 
 def doubts(network: Network) -> list[str]:
     """Return a sentence for each number that is likely not meant, with the remedy and the nodes it is of."""
+    from ebac.hardware.drive_limits import above_peak
+
+    strong = [f"{text}; {remedy}" for _, text, remedy in above_peak(network)]
     found: dict[str, list[str]] = {}
     for node in network.nodes:
         for text in (*_above_rated(node.profile), *_long_waits(node.profile)):
             found.setdefault(text, []).append(str(node.id))
-    return [
+    return strong + [
         f"{'node' if len(ids) == 1 else 'nodes'} {', '.join(ids)} of {network.name}: {text}"
         for text, ids in found.items()
     ]
@@ -44,7 +48,10 @@ def doubts(network: Network) -> list[str]:
 def _above_rated(profile: Profile) -> Iterator[str]:
     from ebac.drives.profile_fields import BY_NAME
 
+    has_peak = {_PEAK, "limits.rated_torque"} <= profile.values.keys()
     for name, per in _OF_RATED:
+        if has_peak and name != _PEAK:  # `above_peak` compares it with the peak of the motor
+            continue
         value, rated = profile.values.get(name), profile.values.get(per)
         if value is None or rated is None or float(value) <= PEAK * float(rated):
             continue

@@ -169,7 +169,7 @@ def _drive_limits(path: Path) -> list[Finding]:
     known = Configuration.load(path)
     return [
         Finding(what=f"the drives' {key}", found=text, verdict="fair", remedy=remedy)
-        for key, text, remedy in above_peak(known.device, known.drives)
+        for key, text, remedy in above_peak(known.drives, known.device)
     ]
 
 
