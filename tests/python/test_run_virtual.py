@@ -335,6 +335,19 @@ def test_another_motor_without_a_thermal_time_of_its_own_is_noted() -> None:
     assert said("") == []
 
 
+def test_drives_with_the_sync_period_of_another_rate_are_noted() -> None:
+    known = Configuration.load(EXAMPLE)
+    slower = known.replace(timing=known.timing.replace(dt=2e-3))
+    (note,) = [one for one in doubtful_run.doubts(slower) if "sync.period" in one]
+    assert note.startswith(
+        "nodes 1, 2 of the built-in joystick: sync.period = 0.001 s in its profile, timing.dt = 0.002 s: `ebac run` "
+    )
+    assert "give sync.period = 0.002 in the profile and `ebac drive apply` it" in note
+    assert doubtful_run.doubts(slower.replace(setup="apply")) == [], "a run writes it"
+    without_drives = Configuration.from_toml("[timing]\ndt = 2e-3\n")
+    assert not [one for one in doubtful_run.doubts(without_drives) if "sync.period" in one]
+
+
 def test_limits_that_hardly_protect_are_noted() -> None:
     known = Configuration.load(EXAMPLE)
     loose = known.replace(limits=known.limits.replace(speed=100.0, end=1.0, pause=0.2))

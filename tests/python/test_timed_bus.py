@@ -246,6 +246,19 @@ def test_the_doctor_finds_the_limits_that_a_run_refuses(tmp_path: Path) -> None:
     assert not [row for row in rows if row["what"].startswith("limits.")]
 
 
+def test_the_doctor_finds_a_motor_whose_time_constant_is_not_given(tmp_path: Path) -> None:
+    file = tmp_path / "joystick.toml"
+    text = EXAMPLE.read_text() + "\n[device.motor]\nrotor_inertia = 14e-7\n"
+    for more, verdicts in (("", ["fair"]), ("thermal_time = 12.0\n", [])):
+        file.write_text(text.replace("[limits]", f"[limits]\n{more}#", 1))
+        rows = json.loads(CliRunner().invoke(app, ["doctor", str(file), "--json"]).stdout)["rows"]
+        found = [row for row in rows if row["what"] == "limits.thermal_time"]
+        assert [row["verdict"] for row in found] == verdicts
+        for row in found:
+            assert "16 s of an RE 30 are taken, but [device.motor] is another motor" in row["found"]
+            assert "from its data sheet" in row["remedy"]
+
+
 def test_the_doctor_finds_drives_that_let_through_more_than_their_motor_takes(
     tmp_path: Path,
 ) -> None:

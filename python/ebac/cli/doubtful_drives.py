@@ -1,4 +1,4 @@
-"""Drives of a configuration that allow less than its device wants, or more than its motor takes, or are for another."""
+"""Drives of a configuration that allow too little or too much, or are for another motor or sample time."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ def note(file: Path | str, known: Configuration) -> None:
 
 def doubts(known: Configuration) -> list[str]:
     """Return a sentence for each value of the drives that is likely not meant, with the remedy."""
-    return _other_motor(known) or [*_weak(known), *_strong(known)]
+    return _other_motor(known) or [*_weak(known), *_strong(known), *_sync(known)]
 
 
 def _other_motor(known: Configuration) -> list[str]:
@@ -49,3 +49,19 @@ def _strong(known: Configuration) -> list[str]:
 
     found = above_peak(known.drives, known.device)
     return [f"{text}; {remedy}" for _, text, remedy in found]
+
+
+def _sync(known: Configuration) -> list[str]:
+    from ebac._util.toml import parsed
+    from ebac.hardware.drive_setup import other_sync
+
+    if "bus" not in parsed(known.text):  # its drives are only simulated
+        return []
+    alike: dict[str, list[str]] = {}
+    for node, text, remedy in other_sync(known):
+        if remedy:
+            alike.setdefault(f"{text}; {remedy}", []).append(str(node))
+    return [
+        f"{'node' if len(ids) == 1 else 'nodes'} {', '.join(ids)} of {known.drives.name}: {text}"
+        for text, ids in alike.items()
+    ]

@@ -62,17 +62,9 @@ def _other_device_of_the_law(known: Configuration) -> list[str]:
 
 
 def _winding_of_the_reference(known: Configuration) -> list[str]:
-    from ebac._core import Limits, Motor
-    from ebac._util.toml import parsed
+    from ebac.hardware.rating import unknown_winding
 
-    time = known.limits.thermal_time
-    given = "thermal_time" in parsed(known.text).get("limits", {})
-    if given or time != Limits.of(known.device).thermal_time or known.device.motor == Motor():
-        return []
-    return [
-        f"limits.thermal_time is not given: {time:g} s of an RE 30 are taken, but [device.motor] is another motor, "
-        "which may burn; give the thermal time constant of the winding [s] from its data sheet"
-    ]
+    return [f"{text}; {remedy}" for text, remedy in unknown_winding(known)]
 
 
 def _sensor_of_the_device_alone(known: Configuration) -> list[str]:

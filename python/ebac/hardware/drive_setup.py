@@ -48,6 +48,30 @@ def nodes_of(configuration: Configuration, *, simulate: bool) -> tuple[Node, ...
     )
 
 
+def other_sync(known: Configuration) -> list[tuple[int, str, str]]:
+    """Return the drives whose profile has another SYNC period than the loop.
+
+    Returns
+    -------
+    list of (node, sentence, remedy)
+        The remedy is empty where a run writes the period of the loop.
+    """
+    dt, verifies = known.timing.dt, known.setup == "verify"
+    then = "refuses a drive that holds anything else there" if verifies else "writes it"
+    found = []
+    for node in known.drives.nodes:
+        period = float(node.profile.values["sync.period"])
+        if abs(period - dt) <= 0.5e-6:  # as finely as 0x1006 counts
+            continue
+        text = (
+            f"sync.period = {period:g} s in its profile, timing.dt = {dt:g} s: `ebac run` takes timing.dt for 0x1006, "
+            f'and {then}, because of bus.setup = "{known.setup}"'
+        )
+        remedy = f"give sync.period = {dt:g} in the profile and `ebac drive apply` it, or timing.dt = {period:g}"
+        found.append((node.id, text, remedy if verifies else ""))
+    return found
+
+
 @contextmanager
 def drives_at(backend: Backend, nodes: Sequence[Node]) -> Iterator[list[Drive]]:
     """Give the drives of a backend; the bus is closed after the block, so that Python receives no process data."""

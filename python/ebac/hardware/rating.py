@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from ebac._core import Limits
+from ebac._core import Limits, Motor
+from ebac._util.toml import parsed
 from ebac._util.toml_lines import placed
 from ebac.hardware.tables import ConfigurationError
 
@@ -62,3 +63,16 @@ def beyond_rating(known: Configuration) -> list[tuple[str, str]]:
             text = f"limits.{name} = {asked:g} {unit}: is beyond the {what}, {most:.4g} {unit}"
             found.append((name, placed(known.name, known.text, ("limits", name), text)))
     return found
+
+
+def unknown_winding(known: Configuration) -> list[tuple[str, str]]:
+    """Return in words, and with the remedy, that another motor is limited by the time constant of an RE 30."""
+    time = known.limits.thermal_time
+    given = "thermal_time" in parsed(known.text).get("limits", {})
+    if given or time != Limits.of(known.device).thermal_time or known.device.motor == Motor():
+        return []
+    text = (
+        f"limits.thermal_time is not given: {time:g} s of an RE 30 are taken, but [device.motor] is another motor, "
+        "which may burn"
+    )
+    return [(text, "give the thermal time constant of the winding [s] from its data sheet")]

@@ -39,9 +39,9 @@ def doctor(
 
     Prints how to fix each one. Kernel, clock, limits and CAN interfaces are checked; nothing is changed. "fair" means
     that some ticks will be late, that answers on the bus may be, that the drives may hold another SYNC period than the
-    run writes, that a drive lets through more than its motor is to take, or that one whose loop stalls can throw the
-    handle to the end of the workspace, "bad" that a control loop cannot run as requested or that `ebac run` refuses a
-    limit, with exit code 1.
+    run writes, that a drive lets through more than its motor is to take, that the time constant of another motor's
+    winding is not given, or that a drive whose loop stalls can throw the handle to the end of the workspace, "bad" that
+    a control loop cannot run as requested or that `ebac run` refuses a limit, with exit code 1.
 
     **Examples**
 
@@ -114,50 +114,41 @@ def _bus(path: Path) -> Finding:
 def _sync(path: Path) -> list[Finding]:
     """Return the drives whose profile has another SYNC period than the loop: a run wants that of the loop in 0x1006."""
     from ebac.hardware.configuration import Configuration
+    from ebac.hardware.drive_setup import other_sync
     from ebac.realtime import Finding
 
-    known = Configuration.load(path)
-    dt = known.timing.dt
-    verifies = known.setup == "verify"
-    found = []
-    for node in known.drives.nodes:
-        period = float(node.profile.values["sync.period"])
-        if abs(period - dt) <= 0.5e-6:  # as finely as 0x1006 counts
-            continue
-        then = (
-            'refuses a drive that holds anything else there, because of bus.setup = "verify"'
-            if verifies
-            else 'writes it, because of bus.setup = "apply"'
+    return [
+        Finding(
+            what=f"node {node}, period of SYNC",
+            found=text,
+            verdict="fair" if remedy else "good",
+            remedy=remedy,
         )
-        found.append(
-            Finding(
-                what=f"node {node.id}, period of SYNC",
-                found=f"sync.period = {period:g} s in its profile, timing.dt = {dt:g} s: `ebac run` takes timing.dt "
-                f"for 0x1006, and {then}",
-                verdict="fair" if verifies else "good",
-                remedy=f"give sync.period = {dt:g} in the profile and `ebac drive apply` it, or timing.dt = {period:g}"
-                if verifies
-                else "",
-            )
-        )
-    return found
+        for node, text, remedy in other_sync(Configuration.load(path))
+    ]
 
 
 def _rating(path: Path) -> list[Finding]:
-    """Return each limit of a configuration that is beyond the data sheet of its motor: `ebac run` refuses it."""
+    """Return each limit that the motor may not bear: `ebac run` refuses one beyond the data sheet."""
     from ebac.hardware import rating
     from ebac.hardware.configuration import Configuration
     from ebac.realtime import Finding
 
-    return [
+    known = Configuration.load(path)
+    refused = [
         Finding(
             what=f"limits.{name}",
             found=f"{text}: `ebac run` refuses it, the motor may burn",
             verdict="bad",
             remedy=rating.remedy(name),
         )
-        for name, text in rating.beyond_rating(Configuration.load(path))
+        for name, text in rating.beyond_rating(known)
     ]
+    unknown = [
+        Finding(what="limits.thermal_time", found=text, verdict="fair", remedy=remedy)
+        for text, remedy in rating.unknown_winding(known)
+    ]
+    return refused + unknown
 
 
 def _drive_limits(path: Path) -> list[Finding]:
