@@ -731,6 +731,13 @@ def test_all_that_is_of_another_motor_is_listed_with_the_way_to_change_it(own_mo
     assert ran.exit_code == 0, ran.output
     again = CliRunner().invoke(app, words)
     assert again.stdout == made.stdout, "also where the file names drives of its own"
+    own_motor.write_text(own_motor.read_text().replace("= 0.0255", "= 0.027"), encoding="utf-8")
+    ran = CliRunner().invoke(app, ["run", str(own_motor), "--virtual"])
+    assert (
+        "the values stand in my-network.toml, beside the profile of each node: change them there, or write it again "
+        "for the motor of FILE: `ebac drive profile joystick --motor FILE > my-network.toml`"
+    ) in " ".join(ran.stderr.split())
+    assert "my-drive.toml" not in ran.stderr, "its keys would not count beside those of the nodes"
 
 
 def test_the_specs_of_a_file_that_is_not_there_are_refused_as_those_of_a_scenario() -> None:

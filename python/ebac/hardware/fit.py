@@ -8,8 +8,8 @@ from typing import Any
 from ebac._core import Device
 from ebac._util.file_kinds import SCENARIO, kind_of
 from ebac._util.plural import plural
-from ebac.drives.network import BUILT_IN, Network
-from ebac.drives.profile import builtin
+from ebac.drives.network import BUILT_IN, Network, Node
+from ebac.drives.profile import builtin, read_profile, read_source
 from ebac.drives.profile_fields import BY_NAME
 from ebac.drives.toml_positions import Source
 from ebac.hardware.tables import refusing
@@ -65,6 +65,7 @@ def _check_drives(source: Source, device: Device, drives: Network) -> None:
 def other_motor(device: Device, drives: Network) -> str:
     """Return in words what profiles and device do not agree on, and the remedy; "" where they agree on all."""
     alike: dict[str, list[str]] = {}
+    beside = False
     for key, mine, name in _SAME:
         own, unit = mine(device), BY_NAME[key].unit
         for node in drives.nodes:
@@ -72,6 +73,7 @@ def other_motor(device: Device, drives: Network) -> str:
             if theirs is not None and abs(float(theirs) - own) > 0.01 * own:
                 text = f"{key} = {float(theirs):g} {unit}, the device {name} = {own:g} {unit}"
                 alike.setdefault(text, []).append(str(node.id))
+                beside |= _stands_beside(node, key)
     if not alike:
         return ""
     listed = "; ".join(
@@ -80,8 +82,33 @@ def other_motor(device: Device, drives: Network) -> str:
     )
     return (
         f"{drives.name} and the device are for different motors. {listed}. Each must be the same within 1 %, or every "
-        f"force or position is wrong; correct the device or the profile{_from_files(drives)}"
+        f"force or position is wrong; correct the device or the profile"
+        + (_written_again(drives) if beside else _from_files(drives))
     )
+
+
+def _stands_beside(node: Node, key: str) -> bool:
+    """Return whether a network file gives a key beside a profile that comes with the package."""
+    name = node.profile.name
+    return name in builtin() and (
+        read_profile(read_source(name)).values.get(key) != node.profile.values[key]
+    )
+
+
+def _written_again(drives: Network) -> str:
+    """Return how the keys of the motor beside the nodes of a network file are replaced."""
+    same = [(node.id, node.profile.name) for node in drives.nodes]
+    tables = {name: read_source(name).table.get("node", []) for name in builtin()}
+    made = [
+        name
+        for name, nodes in tables.items()
+        if [(node["id"], node["profile"]) for node in nodes] == same
+    ]
+    again = "".join(
+        f", or write it again for the motor of FILE: `ebac drive profile {name} --motor FILE > {drives.name}`"
+        for name in made[:1]
+    )
+    return f"; the values stand in {drives.name}, beside the profile of each node: change them there{again}"
 
 
 def _from_files(drives: Network) -> str:
