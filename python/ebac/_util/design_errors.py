@@ -8,6 +8,7 @@ from typing import Any
 
 from ebac._core import Device, DeviceFacts, Timing
 from ebac._util.plural import plural
+from ebac._util.rated_current import LOOK
 
 
 def by_cause(
@@ -20,9 +21,16 @@ def by_cause(
         if not hasattr(facts, made[2]):
             return _of_the_design(made, facts, timing)
         message = made[0]  # its unit is no mistake of the user either
-    found = re.match(r"(\w+\.(force_noise|damping)) = \S+ N(?: s/m)?: (.*)", message)
+    found = re.match(r"(\w+\.(force_noise|damping|peak_force)) = \S+ N(?: s/m)?: (.*)", message)
     if found is None or found[2] in changes or not isinstance(device, Device):
         return message
+    if found[2] == "peak_force":
+        motor = device.motor
+        return (
+            f"Motor.rated_torque = {motor.rated_torque:g} N m, torque_constant = {motor.torque_constant:g} N m/A: "
+            f"{found[1]} = {device.peak_force:.4g} N, which follows from the motor, {found[3]}; {LOOK}, the radii of "
+            "capstan and lever in m (mm x 1e-3)"
+        )
     if found[2] == "damping":
         own = f"Mechanics.damping = {device.mechanics.damping:g} N s/m: {found[3]}, as {found[1]} follows from it"
         return _spent_by_compensation(device, found[1]) or own

@@ -12,6 +12,7 @@ from ebac.drives.toml_positions import Path, Source, dotted
 
 #: Where a number stands that a law is designed for.
 _CAUSES: dict[str, Path] = {
+    "Motor.rated_torque": ("device", "motor", "rated_torque"),
     "ForceSensor.noise": ("device", "sensor", "noise"),
     "Timing.dt": ("timing", "dt"),
 }
