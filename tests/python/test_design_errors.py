@@ -34,11 +34,11 @@ def test_a_device_without_damping_is_named_itself() -> None:
 
 def test_a_motor_in_wrong_units_is_named_with_both_of_its_torques() -> None:
     """Where both are a thousand times too large, the rated current is that of a motor."""
+    device = ebac.Device(motor=ebac.Motor(rated_torque=53.0, torque_constant=53.8))
     with pytest.raises(
         ValueError, match=r"^Motor\.rated_torque = 53 N m, torque_constant = 53\.8 N m/A"
     ) as refused:
-        motor = ebac.Motor(rated_torque=53.0, torque_constant=53.8)
-        ebac.design("ebac", ebac.Device(motor=motor), ebac.Timing())
+        ebac.design("ebac", device, ebac.Timing())
     assert "EBAC.peak_force = 4.24e+04 N" in str(refused.value)
     text = "[device]\n[device.motor]\nrated_torque = 53.0\ntorque_constant = 53.8\n[law]\n"
     with pytest.raises(
