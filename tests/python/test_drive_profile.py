@@ -192,12 +192,12 @@ NETWORK = f"[bus]\nbitrate = 1000000\n{DRIVE.format(1)}{DRIVE.format(2)}"
         ("bitrate = 1000000", "bitrate = 1000001", "line 2: bus.bitrate = 1000001 bit/s: must be one of 10000,"),
         ("id = 1", "id = 0", "line 4: node[0].id = 0: must be a whole number in [1, 127], the drive's own"),
         ("id = 1", "id = 127", "line 4: node[0].id = 127: is heartbeat.master, the loop's own id: choose another"),
-        ("id = 2", "id = 1", "line 7: the second [[node]]: id = 1 is that of another node; must be unique, 1 to 127"),
+        ("id = 2", "id = 1", "line 7: node[1].id = 1: is that of another node; must be unique, 1 to 127"),
         ("id = 2", "id = 2\nheartbeat.master = 100",
-         "line 8: node[1]: heartbeat.master = 100, that of node 1 is 127: the loop sends one heartbeat"),
-        ("id = 1\nprofile", "id = 1\nname", "line 3: node[0].profile = None: must be the name of a profile"),
+         "line 8: node 2: heartbeat.master = 100, that of node 1 is 127: the loop sends one heartbeat"),
+        ("id = 1\nprofile", "id = 1\nname", "line 3: node 1: profile = None: must be the name of a profile"),
         ('id = 1\nprofile = "copley-accelnet"', 'id = 1\nprofile = "joystick"',
-         "line 5: node[0].profile = 'joystick': is itself a network file"),
+         "line 5: node 1: profile = 'joystick': is itself a network file"),
         ("id = 2", "id = 2\nmotor.torque_constant = -1", "line 8: motor.torque_constant = -1 N m/A"),
         ("id = 2", "id = 2\nmoter.torque_constant = 1", "line 8: node[1].moter: no such name, did you mean 'motor'"),
         ("[bus]", "[buss]", "line 1: buss: no such name, did you mean 'bus'"),
@@ -213,15 +213,6 @@ def test_a_wrong_network_file_is_refused_with_its_line(
     with pytest.raises(drives.ProfileError) as caught:
         drives.load(file)
     assert str(caught.value).startswith(f"{file}, {message}"), caught.value
-
-
-def test_the_eighth_node_with_the_id_of_another_is_named_by_its_number(tmp_path: Path) -> None:
-    file = tmp_path / "net.toml"
-    file.write_text("".join(DRIVE.format(one) for one in (*range(1, 8), 3)), encoding="utf-8")
-    with pytest.raises(
-        drives.ProfileError, match=r"line 23: \[\[node\]\] number 8: id = 3 is that of"
-    ):
-        drives.load(file)
 
 
 def test_a_bit_rate_that_is_given_is_that_of_a_file_without_one(tmp_path: Path) -> None:

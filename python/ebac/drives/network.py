@@ -22,8 +22,6 @@ from ebac.drives.toml_positions import Source
 
 #: Bit rate of a bus where none is given [bit/s].
 _RATE = 1_000_000
-#: How people count the drives of a file.
-_PLACES = ("first", "second", "third", "fourth", "fifth", "sixth")
 #: How the name of a network begins that comes with the package.
 BUILT_IN = "the built-in "
 
@@ -229,15 +227,14 @@ def _nodes(source: Source) -> tuple[Node, ...]:
                 at, f"node[{i}].id = {found!r}: must be a whole number in [1, 127], the drive's own"
             )
         if found in [node.id for node in nodes]:
-            which = f"the {_PLACES[i]} [[node]]" if i < len(_PLACES) else f"[[node]] number {i + 1}"
             raise source.refuse(
-                at, f"{which}: id = {found} is that of another node; must be unique, 1 to 127"
+                at, f"node[{i}].id = {found}: is that of another node; must be unique, 1 to 127"
             )
         name = table.get("name", "")
         if not isinstance(name, str):
-            raise source.refuse(("node", i, "name"), f"node[{i}].name = {name!r}: must be text")
+            raise source.refuse(("node", i, "name"), f"node {found}: name = {name!r}: must be text")
         profile = read_profile(source, base=_base(source, i, table), at=("node", i))
-        sheet = _sheet(source, i, table["eds"]) if "eds" in table else None
+        sheet = _sheet(source, i, table) if "eds" in table else None
         nodes.append(Node(id=found, name=name, profile=profile, sheet=sheet))
     for i, node in enumerate(nodes):
         if any(node.id == other.profile.values["heartbeat.master"] for other in nodes):
@@ -249,22 +246,23 @@ def _nodes(source: Source) -> tuple[Node, ...]:
         if own != first:
             raise source.refuse(
                 ("node", i, "heartbeat", "master"),
-                f"node[{i}]: heartbeat.master = {own}, that of node {nodes[0].id} is {first}: the loop sends one "
+                f"node {node.id}: heartbeat.master = {own}, that of node {nodes[0].id} is {first}: the loop sends one "
                 "heartbeat, and a drive that watches another is not stopped when the loop dies; give all the same",
             )
     return tuple(nodes)
 
 
-def _sheet(source: Source, i: int, name: Any) -> Sheet:
+def _sheet(source: Source, i: int, table: Mapping[str, Any]) -> Sheet:
+    name = table["eds"]
     if not isinstance(name, str):
         raise source.refuse(
             ("node", i, "eds"),
-            f"node[{i}].eds = {name!r}: must be the name of the drive's data sheet, an EDS or DCF file",
+            f"node {table['id']}: eds = {name!r}: must be the name of the drive's data sheet, an EDS or DCF file",
         )
     try:
         return read_eds(Path(source.name).parent / name)
     except ProfileError as error:
-        raise source.refuse(("node", i, "eds"), f"node[{i}].eds: {error}") from None
+        raise source.refuse(("node", i, "eds"), f"node {table['id']}: eds: {error}") from None
 
 
 def _base(source: Source, i: int, table: Mapping[str, Any]) -> Profile:
@@ -272,16 +270,20 @@ def _base(source: Source, i: int, table: Mapping[str, Any]) -> Profile:
     if not isinstance(name, str):
         at = ("node", i, "profile") if "profile" in table else ("node", i)
         raise source.refuse(
-            at, f"node[{i}].profile = {name!r}: must be the name of a profile, or of its file"
+            at,
+            f"node {table['id']}: profile = {name!r}: must be the name of a profile, or of its file",
         )
     beside = Path(source.name).parent / name
     try:
         base = read_source(beside if beside.is_file() else name)
     except ProfileError as error:
-        raise source.refuse(("node", i, "profile"), f"node[{i}].profile: {error}") from None
+        raise source.refuse(
+            ("node", i, "profile"), f"node {table['id']}: profile: {error}"
+        ) from None
     if "node" in base.table:
         raise source.refuse(
-            ("node", i, "profile"), f"node[{i}].profile = {name!r}: is itself a network file"
+            ("node", i, "profile"),
+            f"node {table['id']}: profile = {name!r}: is itself a network file",
         )
     return read_profile(base)
 
