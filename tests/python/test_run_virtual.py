@@ -18,7 +18,7 @@ from ebac.cli.files import FigureOptions
 from ebac.cli.run import names
 from ebac.cli.run.live import lines
 from ebac.hardware import Configuration, Run, under_the_law
-from ebac.hardware.lateness import explained, lateness, lateness_of
+from ebac.hardware.lateness import explained, lateness, lateness_of, loop_fault
 from ebac.hardware.virtual_device import VirtualDevice
 from ebac.simulation import LoopFault
 
@@ -220,6 +220,16 @@ def test_a_fault_of_speed_names_the_file_that_was_run() -> None:
     fault = LoopFault(ebac.Fault.OVERSPEED, late_trace(ebac.Fault.OVERSPEED))
     assert "run `ebac drive signs mine.toml`: a motor" in explained(fault, file="mine.toml")
     assert "run `ebac drive signs FILE`" in explained(fault)
+
+
+def test_a_handle_that_is_too_fast_on_hardware_is_first_looked_at_for_a_wrong_sign() -> None:
+    fault = loop_fault(late_trace(ebac.Fault.OVERSPEED))
+    assert fault is not None
+    order = ("the loop woke up", "run `ebac drive signs")
+    places = [explained(fault).index(words) for words in order]
+    assert places[0] > places[1]
+    simulated = explained(fault, "--virtual instead of --simulated runs it on a virtual clock")
+    assert [simulated.index(words) for words in order] == sorted(map(simulated.index, order))
 
 
 def test_a_simulation_is_never_late() -> None:

@@ -55,7 +55,10 @@ def explained(fault: LoopFault, instead: str = "", file: str = "") -> str:
     then = fault.remedy.replace(" FILE`", f" {file}`") if file else fault.remedy
     if "`ebac doctor`" in then and lateness_of(fault.fault, fault.trace):
         then = ""  # the note on the lateness says so
-    return "; ".join(filter(None, [text, *notes, instead if notes else "", then]))
+    late = [*notes, instead if notes else ""]
+    if fault.fault is Fault.OVERSPEED and not instead:  # on hardware a wrong sign is more probable
+        return "; ".join(filter(None, [text, then, *late]))
+    return "; ".join(filter(None, [text, *late, then]))
 
 
 def lateness_of(fault: Fault, trace: Trace) -> str:
