@@ -9,6 +9,7 @@ from ebac.cli import by_name, doubtful_run, from_options, options, setting
 
 if TYPE_CHECKING:
     from ebac.hardware import Configuration
+    from ebac.hardware.schedule import Schedule
 
 
 def chosen(
@@ -44,16 +45,17 @@ def chosen(
 
 
 def first_run(
-    known: Configuration, wall: options.WallOptions, engine: str | None
+    known: Configuration, wall: options.WallOptions, engine: str | None, schedule: Schedule
 ) -> tuple[Configuration, tuple[str, ...]]:
     """Return the configuration of --first, and a line for each value that it changes.
 
     Raises
     ------
     ValueError
-        Where other options ask for a virtual world.
+        Where other options ask for a virtual world or a force loop.
     """
     from ebac.hardware.first_run import differences
+    from ebac.laws.making import FORCE_GAINS
 
     given = {**vars(wall), "engine_command": engine}
     asked = [f"--{name.replace('_', '-')}" for name, value in given.items() if value is not None]
@@ -61,6 +63,14 @@ def first_run(
         raise ValueError(
             f"{', '.join(asked)}: --first has no virtual world; leave it out, or leave out --first"
         )
+    for order in schedule.orders:
+        asked = [f"environment.{name}" for name in order.environment]
+        asked += [f"law.{name}" for name, gain in order.law.items() if gain and name in FORCE_GAINS]
+        if asked:
+            raise ValueError(
+                f"--at {order.at:g} s: {', '.join(asked)}: --first has neither a virtual world nor a force loop; leave "
+                "it out, or leave out --first"
+            )
     first = known.first_run()
     return first, tuple(differences(known, first))
 

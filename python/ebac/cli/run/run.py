@@ -170,9 +170,10 @@ def run(
 
     if no_files and out is not None:
         output.fail("--no-files and --out exclude each other: leave one of them out")
-    if virtual and (simulated or at or detached or live):
+    in_time = {"--simulated": simulated, "--at": at, "--live": live, "--detached": detached}
+    if virtual and (given := [name for name, value in in_time.items() if value]):
         output.fail(
-            "--virtual excludes --simulated, --at, --live and --detached: they belong to a run in real time"
+            f"--virtual excludes {', '.join(given)}, which belongs to a run in real time: leave out one or the other"
         )
     style.check()
     with output.refusing(), telling():
@@ -180,7 +181,7 @@ def run(
         known = chosen(configuration, law, seconds, rate, observer, wall, person)
         changed: tuple[str, ...] = ()
         if first:
-            known, changed = first_run(known, wall, engine_command)
+            known, changed = first_run(known, wall, engine_command, schedule)
         known = engine.with_engine(known, engine_command, wall, schedule)
         if virtual and known.engine:
             raise ValueError(
