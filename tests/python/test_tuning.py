@@ -81,6 +81,10 @@ def test_the_best_is_no_worse_than_the_design_and_both_are_judged_on_the_test_ha
     assert seen[-1] == (12, 12)
     low, high = tuning.RANGES["tca-damped"]["virtual_damping"]
     assert low <= found.changes["virtual_damping"] <= high
+    assert found.row()["parameters"] == (
+        {"name": "virtual_damping", "value": found.changes["virtual_damping"], "unit": "N s/m", "low": 5, "high": 200},
+        {"name": "kp", "value": found.changes["kp"], "unit": "1", "low": 0, "high": 1},
+    )  # fmt: skip
     rows = ebac.study(other, found.variant, ["d1K20"], base=ebac.Scenario(seconds=1.5)).rows
     assert rows[0].good == found.test[0].good
 
@@ -110,6 +114,7 @@ def test_a_parameter_at_a_bound_of_its_range_is_named_with_a_remedy() -> None:
         "ebac.tune(..., ranges=...)",
     )
     assert own.at_bounds({}) == ()
+    assert own.searched({})[1] == {"name": "steps", "value": None, "unit": "1", "low": 0, "high": 2}
     built_in = tuning.ranges.Ranges("tca-damped", tuning.RANGES["tca-damped"])
     (one,) = built_in.at_bounds({"virtual_damping": 200.0, "kp": 0.0})
     assert one.startswith(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from typing import TypeAlias
+from typing import Any, TypeAlias
 
 import numpy as np
 
@@ -80,6 +80,13 @@ class Ranges:
             else:
                 shares.append((value - low) / (high - low))
         return np.asarray(np.clip(np.array(shares), 0, 1))
+
+    def searched(self, changes: Mapping[str, float | bool]) -> tuple[dict[str, Any], ...]:
+        """Return name, value found, unit, and lowest and highest value searched of each parameter."""
+        return tuple(
+            {"name": n, "value": changes.get(n), "unit": self._fields[n].unit or "1", "low": low, "high": high}
+            for n, (low, high) in self.ranges.items()
+        )  # fmt: skip
 
     def at_bounds(self, changes: Mapping[str, float | bool]) -> tuple[str, ...]:
         """Return which parameters stand at a bound of what was searched, and how to search beyond it.

@@ -75,6 +75,9 @@ class Tuned:
         Of the training hands, see `cost_of`.
     test, default : tuple of TunedRow
         One per condition, of the test hands: with these parameters, and with those of the design.
+    parameters : tuple of dict
+        What was searched, in SI units: `name`, `value` (None where the design is best), `unit`, and `low` and `high` of
+        the range; 0 and 1 for a switch.
     at_bounds : tuple of str
         Which parameters found stand at a bound of their range, in words, and what to do.
     """
@@ -89,6 +92,7 @@ class Tuned:
     default_cost: float
     test: tuple[TunedRow, ...]
     default: tuple[TunedRow, ...]
+    parameters: tuple[dict[str, Any], ...] = ()
     at_bounds: tuple[str, ...] = ()
 
     @property

@@ -115,7 +115,9 @@ def tune(
                 stopped = True
             if search.tried:
                 found = _judged(search, delay, others, start, seed, threads)
-                done.append(replace(found, at_bounds=searched.at_bounds(found.changes)))
+                parameters = searched.searched(found.changes)
+                at_bounds = searched.at_bounds(found.changes)
+                done.append(replace(found, parameters=parameters, at_bounds=at_bounds))
         except KeyboardInterrupt:  # before the search, or while its result was judged
             stopped = True
         if stopped:
