@@ -26,7 +26,7 @@ def test_limits_beyond_the_motor_are_refused_before_any_drive_is_met(name: str) 
         limits=known.limits.replace(**beyond), interface="socketcan", channel="none0"
     )
     with pytest.raises(
-        ebac.hardware.ConfigurationError, match=rf"limits\.{name} = .*--beyond-rating"
+        ebac.hardware.ConfigurationError, match=rf"limits\.{name} = .*`ebac run --beyond-rating`"
     ):
         ebac.Device.open(unmet)
     with pytest.raises(ebac.drives.BusError, match="none0"):  # and on: the next thing that is wrong

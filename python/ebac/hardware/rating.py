@@ -44,7 +44,7 @@ def remedy(name: str) -> str:
         else "correct the device's motor"
     )
     return (
-        f"lower it, {other}, or pass --beyond-rating (in Python beyond_rating=True), "
+        f"lower it, {other}, or run it with `ebac run --beyond-rating` (in Python beyond_rating=True), "
         "which allows every limit beyond and notes each"
     )
 
