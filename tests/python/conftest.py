@@ -51,6 +51,9 @@ providers.is_local_module_file = lambda path: False  # type: ignore[attr-defined
 # A runner builds all commands of a program at every call: 40 ms, most of what a test of a wrong option takes.
 typer.testing._get_command = cache(typer.testing._get_command)
 
+# Arrow's own allocator reserves 1 GiB, which a loop in real time then locks into memory: 20 s where pages are slow.
+os.environ.setdefault("ARROW_DEFAULT_MEMORY_POOL", "system")
+
 # A shell that starts pytest in the background has these ignored, and every program that a test interrupts would too.
 for _number, _usual in (
     (signal.SIGINT, signal.default_int_handler),

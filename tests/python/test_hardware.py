@@ -9,6 +9,7 @@ import subprocess
 import sys
 import threading
 import time
+import weakref
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
@@ -123,6 +124,22 @@ def test_what_changes_while_it_runs_acts_and_is_in_the_log(
     at = events[1].tick
     row = int(np.searchsorted(trace["tick"], at))
     assert events[1].t == trace["t"][row]
+
+
+def test_a_run_is_gone_with_its_rows_as_soon_as_nobody_holds_it_and_its_device() -> None:
+    gc.disable()
+    try:
+        with ebac.Device.open(configuration(), simulate=True) as opened:
+            run = opened.start("eba", seconds=0.1)
+            run.finish()
+        gone = weakref.ref(run)
+        del run, opened
+        end = time.monotonic() + 10  # until the thread that looks after the parent has noticed
+        while gone() is not None and time.monotonic() < end:
+            time.sleep(0.01)
+        assert gone() is None
+    finally:
+        gc.enable()
 
 
 def test_a_fault_is_one_exception_with_the_last_rows(tmp_path: Path) -> None:

@@ -1,9 +1,11 @@
 """A session on a virtual clock: what it gives depends on orders and their ticks, not on the machine."""
 
+import gc
 import json
 import subprocess
 import sys
 import time
+import weakref
 from pathlib import Path
 
 import numpy as np
@@ -51,6 +53,20 @@ def test_in_steps_it_is_the_run_of_ebac_run_virtual_to_the_bit() -> None:
     assert run.report is not None
     assert run.report.ended_by == "stop"
     assert float(np.abs(run.tail(5)["f_applied"]).max()) == 0
+
+
+def test_a_closed_session_is_gone_with_its_rows_as_soon_as_nobody_holds_it(tmp_path: Path) -> None:
+    """They are 50 MB, which a collector of Python's own objects does not count."""
+    gc.disable()
+    try:
+        with Session(virtual=True, paced=False, folder=tmp_path) as one:
+            one.start()
+            one.advance(0.1)
+        gone = [weakref.ref(one), weakref.ref(one.run)]
+        del one
+        assert [found() for found in gone] == [None, None]
+    finally:
+        gc.enable()
 
 
 #: A world in Python is called by one thread, while another one aims: each waited for what the other one had.

@@ -169,6 +169,7 @@ class Run(RunChanges):
             self._running.join()
             if self._parent is not None:
                 self._parent.over.set()
+                self._parent = None  # it holds this run, whose rows are many
             failures: list[Exception] = []
             drives: list[str] = []
             try:

@@ -99,7 +99,7 @@ class Session(SessionChanges):
             )
         self._device: OpenDevice | VirtualDevice | None = device
         self._lent, self.virtual, self._paced = device is not None, virtual, paced
-        self._time = VirtualTime()
+        virtual_time = self._time = VirtualTime()
         self.real = device is not None and device.backend.aim is None
         self.dead_man = dead_man or self.real
         self.base = base_of(self._given, CONFIGURED)
@@ -125,7 +125,7 @@ class Session(SessionChanges):
             self.laws[law_name(wanted)] = wanted
         self.choices = first.with_changes({"law": law_name(wanted)}, self.laws)
         self._chosen()
-        self._clock = (lambda: self._time.now) if virtual else time.monotonic
+        self._clock = (lambda: virtual_time.now) if virtual else time.monotonic
         self.hand = IntendedHand(self.base, clock=self._clock)
         self.run: Run | None = None
         self.folder = Path(folder)
