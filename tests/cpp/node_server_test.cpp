@@ -3,9 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <map>
+#include <memory>
 #include <span>
+#include <stdexcept>
+#include <thread>
 
 #include "ebac/can/loopback_bus.hpp"
 #include "ebac/canopen/torque.hpp"
@@ -93,6 +97,43 @@ TEST(NodeServer, LeavesTheBusOnceAndForAll) {
     forgotten.start();
   }
   EXPECT_EQ(hub.ends(), 0U);
+}
+
+/// Notes whether it is asked for a frame after its server was stopped.
+struct Guarded {
+  std::shared_ptr<std::atomic<bool>> stopped = std::make_shared<std::atomic<bool>>(false);
+  std::shared_ptr<std::atomic<int>> late = std::make_shared<std::atomic<int>>(0);
+
+  static void receive(const Frame&) noexcept {}
+  bool take(Frame&) const noexcept {
+    if (*stopped) ++*late;
+    return false;
+  }
+  static void elapse(double) noexcept {}
+};
+
+TEST(NodeServer, IsOverOnceStoppedThoughAnotherThreadJustStartedIt) {
+  for (int i = 0; i < 300; ++i) {
+    LoopbackHub hub;
+    const Guarded node;
+    std::atomic<bool> ready = false;
+    NodeServer<LoopbackBus, Guarded> server(hub.open(), node);
+    std::thread other([&] {
+      ready = true;
+      try {
+        server.start();
+      } catch (const std::logic_error&) {  // it was stopped before
+      }
+    });
+    while (!ready) {
+    }
+    std::this_thread::sleep_for(std::chrono::microseconds{2 * (i % 50)});
+    server.stop();
+    *node.stopped = true;
+    other.join();
+    std::this_thread::yield();
+    ASSERT_EQ(*node.late, 0) << i;
+  }
 }
 
 TEST(NodeServer, TheLoopRunsAHandGivesWayAndAThirdHearsItAll) {

@@ -1,17 +1,14 @@
 #pragma once
 
 #include <algorithm>
-#include <atomic>
 #include <chrono>
 #include <concepts>
 #include <cstdint>
-#include <optional>
-#include <stdexcept>
 #include <utility>
 #include <vector>
 
 #include "ebac/can/bus.hpp"
-#include "ebac/rt/thread.hpp"
+#include "ebac/rt/once_thread.hpp"
 
 namespace ebac::can {
 
@@ -53,21 +50,17 @@ class NodeServer {
 
   /// Starts the thread, once: throws std::logic_error the second time or after a stop, and what rt::Thread throws.
   void start(rt::Mode mode = rt::Mode::kOff, const rt::Options& options = {}) {
-    if (thread_ || over_.load(std::memory_order_relaxed))
-      throw std::logic_error("these nodes have been on their bus already: make new ones");
-    thread_.emplace(mode, options, [this] { work(); });
+    thread_.start("these nodes have been on their bus already: make new ones", mode, options,
+                  [this] { work(); });
   }
-  /// Takes them off the bus, within a few ms; nothing the second time.
+  /// Takes them off the bus, within a few ms; nothing the second time. From any thread, and from several, also while
+  /// another starts them.
   void stop() noexcept {
-    over_.store(true, std::memory_order_relaxed);
-    if (thread_) thread_->join();
-    bus_.close();
+    thread_.stop([this] { bus_.close(); });
   }
 
   /// Resources its thread requested and was granted; empty before the start.
-  std::vector<rt::Grant> grants() const {
-    return thread_ ? thread_->report().grants : std::vector<rt::Grant>{};
-  }
+  std::vector<rt::Grant> grants() const { return thread_.grants(); }
 
   /// May be called by any thread, at any time.
   BusState state() const noexcept { return bus_.state(); }
@@ -85,7 +78,7 @@ class NodeServer {
   void work() noexcept {
     last_ = Steady::now();
     answer();
-    for (Frame frame; !over_.load(std::memory_order_relaxed); answer()) {
+    for (Frame frame; !thread_.over(); answer()) {
       const bool came = bus_.receive(frame, kTimer);
       pass_until(Steady::now() - (came ? age(frame) : std::chrono::nanoseconds{0}));
       if (came) node_.receive(frame);
@@ -112,9 +105,8 @@ class NodeServer {
 
   B bus_;
   N node_;
-  std::atomic<bool> over_{false};
-  Steady::time_point last_;           // until then time has passed for the nodes
-  std::optional<rt::Thread> thread_;  // last: it is joined before the others go
+  Steady::time_point last_;  // until then time has passed for the nodes
+  rt::OnceThread thread_;    // last: it is joined before the others go
 };
 
 }  // namespace ebac::can

@@ -1,7 +1,6 @@
 #include "ebac/sensor/emulator_server.hpp"
 
 #include <algorithm>
-#include <stdexcept>
 #include <utility>
 #include <variant>
 
@@ -12,16 +11,12 @@ EmulatorServer::EmulatorServer(const Endpoint& at, const RdtEmulator<Endpoint>& 
     : socket_(at), emulator_(emulator), source_(std::move(source)), local_(socket_.local()) {}
 
 void EmulatorServer::start(rt::Mode mode, const rt::Options& options) {
-  if (thread_ || over_.load(std::memory_order_relaxed))
-    throw std::logic_error("this sensor has been on the network already: make a new one");
-  thread_.emplace(mode, options, [this] { work(); });
+  thread_.start("this sensor has been on the network already: make a new one", mode, options,
+                [this] { work(); });
 }
 
 void EmulatorServer::stop() noexcept {
-  over_.store(true, std::memory_order_relaxed);
-  const std::scoped_lock one_by_one(stopping_);
-  if (thread_) thread_->join();
-  socket_.close();
+  thread_.stop([this] { socket_.close(); });
 }
 
 void EmulatorServer::set(const EmulatorTrouble& trouble) {
@@ -45,12 +40,12 @@ void EmulatorServer::work() noexcept {
   constexpr std::chrono::nanoseconds kLongestNap = std::chrono::milliseconds{5};
   const auto period =
       std::chrono::nanoseconds(static_cast<std::int64_t>(1e9 / emulator_.options().rate));
-  for (auto due = Steady::now() + period; !over_.load(std::memory_order_relaxed);) {
+  for (auto due = Steady::now() + period; !thread_.over();) {
     const auto left = due - Steady::now();
     if (left.count() > 0) socket_.wait(std::min<std::chrono::nanoseconds>(left, kLongestNap));
     hear();
     if (const EmulatorTrouble* trouble = trouble_.take()) emulator_.set(*trouble);
-    for (; due <= Steady::now() && !over_.load(std::memory_order_relaxed); due += period) {
+    for (; due <= Steady::now() && !thread_.over(); due += period) {
       const auto missed = (Steady::now() - due) / period;
       if (missed > kMostMissed) due += (missed - kMostMissed) * period;
       sample(period);

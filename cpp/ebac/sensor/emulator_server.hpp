@@ -6,11 +6,10 @@
 #include <functional>
 #include <memory>
 #include <mutex>
-#include <optional>
 #include <vector>
 
 #include "ebac/loop/mailbox.hpp"
-#include "ebac/rt/thread.hpp"
+#include "ebac/rt/once_thread.hpp"
 #include "ebac/sensor/emulator.hpp"
 #include "ebac/sensor/udp.hpp"
 
@@ -34,13 +33,12 @@ class EmulatorServer {
 
   /// Once in a life: throws std::logic_error the second time or after a stop, and as rt::Thread.
   void start(rt::Mode mode = rt::Mode::kOff, const rt::Options& options = {});
-  /// Silent for good, within a few ms; nothing the second time. From any thread, and from several.
+  /// Silent for good, within a few ms; nothing the second time. From any thread, and from several, also
+  /// while another starts it.
   void stop() noexcept;
 
   /// Resources its thread requested and was granted; empty before the start.
-  std::vector<rt::Grant> grants() const {
-    return thread_ ? thread_->report().grants : std::vector<rt::Grant>{};
-  }
+  std::vector<rt::Grant> grants() const { return thread_.grants(); }
 
   /// Of any thread, at any time.
   void set(const EmulatorTrouble& trouble);
@@ -59,12 +57,10 @@ class EmulatorServer {
   RdtEmulator<Endpoint> emulator_;
   Source source_;
   Endpoint local_;
-  std::atomic<bool> over_{false};
   std::mutex posting_;  // of callers of `set`; the thread needs no lock
-  std::mutex stopping_;
   Mailbox<EmulatorTrouble> trouble_;
   std::array<std::atomic<std::int64_t>, EmulatorCounts::fields().size()> published_{};
-  std::optional<rt::Thread> thread_;  // last: it is joined before the others go
+  rt::OnceThread thread_;  // last: it is joined before the others go
 };
 
 /// The newest force in a cell.
