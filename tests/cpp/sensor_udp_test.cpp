@@ -209,7 +209,21 @@ TEST(RdtClient, StopsAStreamAndASensorsBiasIsItsOwn) {
   EXPECT_FALSE(s.client.poll(1));
   EXPECT_EQ(s.client.state(), LinkState::kClosed);
   s.client.start();
+  s.client.bias_sensor();
   EXPECT_EQ(s.client.state(), LinkState::kClosed);
+  EXPECT_FALSE(s.sensor.wait(milliseconds{5}));
+}
+
+TEST(RdtClient, AWaitEndsWhenAnotherThreadCloses) {
+  Script s;
+  auto waiting = std::async(std::launch::async, [&] { s.client.wait(seconds{5}); });
+  std::this_thread::sleep_for(milliseconds{20});
+  const Endpoint at = s.client.local();
+  s.client.close();
+  EXPECT_EQ(waiting.wait_for(seconds{3}), std::future_status::ready);
+  // The number of its socket is not that of another file, for which a wait that begins now would wait.
+  EXPECT_EQ(s.client.local(), at);
+  waiting.get();
 }
 
 TEST(RdtClient, NobodyThereIsAState) {

@@ -20,6 +20,7 @@ UdpSocket& UdpSocket::operator=(UdpSocket&& other) noexcept {
 int UdpSocket::send(std::span<const std::uint8_t>, const Endpoint&) EBAC_RT { return EBADF; }
 int UdpSocket::receive(Datagram&) EBAC_RT { return EBADF; }
 bool UdpSocket::wait(std::chrono::nanoseconds) const noexcept { return false; }
+void UdpSocket::end_waits() const noexcept {}
 Endpoint UdpSocket::local() const noexcept { return {}; }
 void UdpSocket::close() noexcept { fd_ = -1; }
 void UdpSocket::forget_errors() const EBAC_RT {}

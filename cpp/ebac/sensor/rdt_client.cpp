@@ -48,14 +48,15 @@ RdtClient::RdtClient(const RdtClientSetup& setup)
 
 void RdtClient::ask(RdtCommand command) EBAC_RT {
   const RdtRequest request{.command = static_cast<std::uint16_t>(command)};
-  if (const int error = socket_.send(encode(request), setup_.sensor); error != 0) {
+  const int error = open() ? socket_.send(encode(request), setup_.sensor) : EBADF;
+  if (error != 0) {
     ++refused_;
     note(error);
   }
 }
 
 void RdtClient::start() EBAC_RT {
-  if (!socket_.open()) return;
+  if (!open()) return;
   Datagram old;  // packets in the queue belong to another stream of unknown age
   for (int i = 0; i < kMostPackets && socket_.receive(old) != EAGAIN; ++i) {
   }
@@ -68,7 +69,7 @@ void RdtClient::start() EBAC_RT {
 }
 
 void RdtClient::stop() EBAC_RT {
-  if (!socket_.open()) return;
+  if (!open()) return;
   wanted_ = false;
   ask(RdtCommand::kStop);
   state_ = LinkState::kStopped;
@@ -76,7 +77,7 @@ void RdtClient::stop() EBAC_RT {
 
 void RdtClient::close() noexcept {
   if (wanted_) stop();
-  socket_.close();
+  if (open()) socket_.end_waits();
   state_ = LinkState::kClosed;
 }
 
@@ -89,7 +90,7 @@ bool RdtClient::poll(double elapsed) EBAC_RT {
   polled_ = polled;
   bool newer = false;
   Datagram in;
-  for (int i = 0; i < kMostPackets && socket_.open(); ++i) {
+  for (int i = 0; i < kMostPackets && open(); ++i) {
     const int error = socket_.receive(in);
     if (error == EAGAIN) break;
     if (error != 0) {

@@ -13,7 +13,7 @@ namespace ebac::sensor {
 
 /// State of the connection to a sensor. Every value is reported; none is an exception.
 enum class LinkState : std::uint8_t {
-  kClosed = 0,       // no socket
+  kClosed = 0,       // by `close`
   kStopped = 1,      // no stream is wanted
   kWaiting = 2,      // a stream was requested, and nothing has arrived yet
   kStreaming = 3,    // records come
@@ -69,6 +69,8 @@ class RdtClient {
   bool poll(double elapsed) EBAC_RT;
   /// Waits for a packet, for the tick of no loop.
   bool wait(std::chrono::nanoseconds timeout) const noexcept { return socket_.wait(timeout); }
+  /// For good. A thread waiting in `wait` returns, and alone that call may run meanwhile; the socket goes with this
+  /// object.
   void close() noexcept;
 
   /// Writes force, age and status into a reading of a device.
@@ -86,6 +88,7 @@ class RdtClient {
   const RdtClientSetup& setup() const EBAC_RT { return setup_; }
 
  private:
+  bool open() const EBAC_RT { return socket_.open() && state_ != LinkState::kClosed; }
   void ask(RdtCommand command) EBAC_RT;
   bool take(const Datagram& in) EBAC_RT;
   void note(int error) EBAC_RT;

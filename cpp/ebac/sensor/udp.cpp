@@ -163,6 +163,10 @@ bool UdpSocket::wait(std::chrono::nanoseconds timeout) const noexcept {
   return ::ppoll(&one, 1, &most, nullptr) > 0;
 }
 
+void UdpSocket::end_waits() const noexcept {
+  ::shutdown(fd_, SHUT_RD);  // says ENOTCONN, and wakes all the same
+}
+
 Endpoint UdpSocket::local() const noexcept {
   sockaddr_in wire{};
   socklen_t size = sizeof(wire);

@@ -66,6 +66,9 @@ class UdpSocket {
   /// Where it is bound.
   Endpoint local() const noexcept;
   bool open() const EBAC_RT { return fd_ >= 0; }
+  /// Ends the `wait` of another thread, and every later one; the socket stays open. Closing it instead would let that
+  /// thread wait for whatever the system opens next under the same number.
+  void end_waits() const noexcept;
   void close() noexcept;
 
  private:
