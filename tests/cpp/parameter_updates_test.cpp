@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
+#include <cstring>
 #include <thread>
 
 #include "ebac/control/tca.hpp"
@@ -23,6 +25,26 @@ TEST(Mailbox, IsEmptyUntilSomethingIsPosted) {
   EXPECT_EQ(*got, 2);  // 1 was replaced before it was taken
   EXPECT_EQ(box.take(), nullptr);
   EXPECT_EQ(*got, 2);  // and stays while nothing is taken
+}
+
+/// The memory may be another process's, too, which may write anything.
+TEST(Mailbox, StaysWithinItsSlotsWhateverItsIndicesBecome) {
+  struct {
+    Mailbox<int> box;
+    std::array<int, 8> behind{};
+  } here;
+  const auto* first = reinterpret_cast<const std::byte*>(&here.box);
+  for (int value = 0; value < 256; ++value) {
+    std::memset(static_cast<void*>(&here.box), value, sizeof(here.box));
+    here.box.post(1);
+    for (int i = 0; i < 3; ++i) {
+      const auto* taken = reinterpret_cast<const std::byte*>(here.box.take());
+      if (taken == nullptr) continue;
+      EXPECT_LT(static_cast<std::size_t>(taken - first), 3 * sizeof(int)) << value;
+      here.box.post(1);
+    }
+  }
+  EXPECT_EQ(here.behind, (std::array<int, 8>{}));
 }
 
 TEST(Mailbox, NeverTearsAValueBetweenThreads) {
