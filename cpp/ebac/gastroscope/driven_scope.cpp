@@ -47,7 +47,7 @@ std::array<double, kMaxAxes> DrivenScope::meet(std::size_t group,
                                                double elapsed) EBAC_RT {
   const std::size_t first = 2 * group;
   for (std::size_t i = 0; i < 2; ++i) x_[first + i].store(x[i], std::memory_order_relaxed);
-  if (group == 0) move(elapsed);
+  if (group == 0) move(std::min(elapsed, kLongest));
   return {load_[first].load(std::memory_order_relaxed),
           load_[first + 1].load(std::memory_order_relaxed), 0};
 }

@@ -52,7 +52,9 @@ struct ScopeReport {
 };
 
 /// The gastroscope in the patient behind the simulated drives of its four axes: tendons, tube, wall. The drives are in two
-/// groups, insertion and rotation, and both bends, each with a thread of its own; the first one moves the scope.
+/// groups, insertion and rotation, and both bends, each with a thread of its own; the first one moves the scope. Time that
+/// the drives missed is not made up for: as for can::PatientPlant, and as the clock of a loop skips ticks, it stands still
+/// beyond the longest step.
 class DrivenScope {
  public:
   DrivenScope(const ScopeParams& scope, std::shared_ptr<const Lumen> lumen, double start,
@@ -67,7 +69,8 @@ class DrivenScope {
                                     double elapsed) EBAC_RT;
 
  private:
-  static constexpr double kStep = 2e-3;  // s, longest of the scope
+  static constexpr double kStep = 2e-3;    // s, longest that is computed at once
+  static constexpr double kLongest = 0.2;  // s, of one `meet`: twice the longest sample time
 
   void move(double elapsed) EBAC_RT;
 
