@@ -2,7 +2,10 @@
 #include "ebac/can/loopback_bus.hpp"
 
 #include <gtest/gtest.h>
+#include <pthread.h>
+#include <sched.h>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <cstddef>
@@ -378,6 +381,39 @@ TEST(Threads, WhatWasSentIsThereOnceAllSendersAreDone) {
   }
   other.join();
   EXPECT_EQ(missing, 0);
+}
+
+/// On one CPU, a thread of real time that waited without sleeping would never let the one that delivers go on.
+TEST(Threads, AThreadOfRealTimeLetsTheOneThatDeliversFinish) {
+  cpu_set_t one;
+  CPU_ZERO(&one);
+  CPU_SET(0, &one);
+  LoopbackHub hub;
+  std::vector<LoopbackBus> many(40);
+  for (LoopbackBus& end : many) end = hub.open({.frames = 1});
+  std::atomic<bool> over = false;
+  std::thread sender([&, end = hub.open()]() mutable {
+    pthread_setaffinity_np(pthread_self(), sizeof(one), &one);
+    while (!over) end.send({.id = 1, .size = 0});
+  });
+  bool granted = false;
+  auto took = std::chrono::steady_clock::duration::zero();
+  std::thread urgent([&] {
+    const sched_param priority{.sched_priority = 1};
+    granted = pthread_setaffinity_np(pthread_self(), sizeof(one), &one) == 0 &&
+              pthread_setschedparam(pthread_self(), SCHED_FIFO, &priority) == 0;
+    for (int i = 0; i < 10 && granted; ++i) {
+      std::this_thread::sleep_for(std::chrono::milliseconds{2});  // the sender is at work again
+      const auto start = std::chrono::steady_clock::now();
+      hub.open().close();
+      took = std::max(took, std::chrono::steady_clock::now() - start);
+    }
+  });
+  urgent.join();
+  over = true;
+  sender.join();
+  if (!granted) GTEST_SKIP() << "no priority here";
+  EXPECT_LT(took, std::chrono::milliseconds{300});
 }
 
 TEST(Threads, EndsComeAndGoWhileOthersSend) {

@@ -16,6 +16,9 @@ namespace {
 /// Frames sent while another thread delivers. Fills up only while that thread is held up.
 constexpr std::size_t kIntake = 1024;
 
+/// Between two looks whether a delivery is over, which takes microseconds.
+constexpr std::chrono::microseconds kNap{20};
+
 struct Message {
   Frame frame{};
   std::uint64_t from = 0;
@@ -74,10 +77,11 @@ struct LoopbackHub::Shared {
     } while (intake.ready());
   }
 
-  /// Changes the list of ends while no thread delivers.
+  /// Changes the list of ends while no thread delivers. Sleeps until then, rather than spins: a thread of real time that
+  /// yields would let no other of its CPU finish its delivery.
   template <class Work>
   void alone(Work work) {
-    while (busy.exchange(true, std::memory_order_acq_rel)) std::this_thread::yield();
+    while (busy.exchange(true, std::memory_order_acq_rel)) std::this_thread::sleep_for(kNap);
     struct GiveBack {
       Shared& shared;
       ~GiveBack() {
