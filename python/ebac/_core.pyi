@@ -2519,11 +2519,11 @@ class Hand:
     Parameters
     ----------
     mass : float
-        M0 of eq. (4) [kg], 0 to 10.
+        mass of the hand, which moves with the handle: M0 of eq. (4) [kg], 0 to 10.
     damping : float
-        B0 of eq. (4) [N s/m], 0 to 1000.
+        damping of the hand, force per speed: B0 of eq. (4) [N s/m], 0 to 1000.
     stiffness : float
-        K0 of eq. (4) [N/m], 0 to 1e+05.
+        stiffness of the hand, force per distance from its target: K0 of eq. (4) [N/m], 0 to 1e+05.
     tremor_amplitude : float
         tremor on top of the path, on every axis [m], 0 to 0.1.
     tremor_frequency : float
@@ -2590,12 +2590,12 @@ class Hand:
     @property
     def damping(self) -> float:
         """
-        B0 of eq. (4) [N s/m], 0 to 1000
+        damping of the hand, force per speed: B0 of eq. (4) [N s/m], 0 to 1000
         """
     @property
     def mass(self) -> float:
         """
-        M0 of eq. (4) [kg], 0 to 10
+        mass of the hand, which moves with the handle: M0 of eq. (4) [kg], 0 to 10
         """
     @property
     def model(self) -> ebac.hands.AnyModel:
@@ -2621,7 +2621,7 @@ class Hand:
     @property
     def stiffness(self) -> float:
         """
-        K0 of eq. (4) [N/m], 0 to 1e+05
+        stiffness of the hand, force per distance from its target: K0 of eq. (4) [N/m], 0 to 1e+05
         """
     @property
     def tremor_amplitude(self) -> float:
@@ -2926,9 +2926,9 @@ class Elastic:
     Parameters
     ----------
     stiffness : float
-        K of eq. (12) [N/m], 0 to 1e+07.
+        stiffness of the surface, force per depth: K of eq. (12) [N/m], 0 to 1e+07.
     damping : float
-        B of eq. (12) [N s/m], 0 to 10000.
+        damping of the surface, force per speed in contact: B of eq. (12) [N s/m], 0 to 10000.
     """
 
     @staticmethod
@@ -2952,12 +2952,12 @@ class Elastic:
     @property
     def damping(self) -> float:
         """
-        B of eq. (12) [N s/m], 0 to 10000
+        damping of the surface, force per speed in contact: B of eq. (12) [N s/m], 0 to 10000
         """
     @property
     def stiffness(self) -> float:
         """
-        K of eq. (12) [N/m], 0 to 1e+07
+        stiffness of the surface, force per depth: K of eq. (12) [N/m], 0 to 1e+07
         """
 
 class HuntCrossley:
@@ -3320,9 +3320,9 @@ class Wall:
     Parameters
     ----------
     stiffness : float
-        K of eq. (12) [N/m], 0 to 1e+07.
+        stiffness of the surface, force per depth: K of eq. (12) [N/m], 0 to 1e+07.
     damping : float
-        B of eq. (12) [N s/m], 0 to 10000.
+        damping of the surface, force per speed in contact: B of eq. (12) [N s/m], 0 to 10000.
     position : float
         where its surface cuts the normal through the origin [m], -10 to 10.
     angle : float
@@ -3376,7 +3376,7 @@ class Wall:
     @property
     def damping(self) -> float:
         """
-        B of eq. (12) [N s/m], 0 to 10000
+        damping of the surface, force per speed in contact: B of eq. (12) [N s/m], 0 to 10000
         """
     @property
     def motion_amplitude(self) -> float:
@@ -3396,7 +3396,7 @@ class Wall:
     @property
     def stiffness(self) -> float:
         """
-        K of eq. (12) [N/m], 0 to 1e+07
+        stiffness of the surface, force per depth: K of eq. (12) [N/m], 0 to 1e+07
         """
 
 class Disc:
@@ -3406,9 +3406,9 @@ class Disc:
     Parameters
     ----------
     stiffness : float
-        K of eq. (12), along the radius [N/m], 0 to 1e+07.
+        stiffness of the surface, force per depth: K of eq. (12), along the radius [N/m], 0 to 1e+07.
     damping : float
-        B of eq. (12), along the radius [N s/m], 0 to 10000.
+        damping of the surface, force per speed in contact: B of eq. (12), along the radius [N s/m], 0 to 10000.
     x : float
         centre [m], -10 to 10.
     y : float
@@ -3453,7 +3453,7 @@ class Disc:
     @property
     def damping(self) -> float:
         """
-        B of eq. (12), along the radius [N s/m], 0 to 10000
+        damping of the surface, force per speed in contact: B of eq. (12), along the radius [N s/m], 0 to 10000
         """
     @property
     def radius(self) -> float:
@@ -3463,7 +3463,7 @@ class Disc:
     @property
     def stiffness(self) -> float:
         """
-        K of eq. (12), along the radius [N/m], 0 to 1e+07
+        stiffness of the surface, force per depth: K of eq. (12), along the radius [N/m], 0 to 1e+07
         """
     @property
     def x(self) -> float:
@@ -4813,9 +4813,9 @@ class TCA:
     Parameters
     ----------
     kp : float
-        K_p of eq. (2), 0 to 10.
+        gain on the error of the measured force: K_p of eq. (2), 0 to 10.
     kd : float
-        K_d of eq. (2) [s], 0 to 1.
+        gain on the rate of the error of the measured force: K_d of eq. (2) [s], 0 to 1.
     filter : float
         low-pass on the derivative of the force error [s], 0 to 1.
     peak_force : float
@@ -4932,12 +4932,12 @@ class TCA:
     @property
     def kd(self) -> float:
         """
-        K_d of eq. (2) [s], 0 to 1
+        gain on the rate of the error of the measured force: K_d of eq. (2) [s], 0 to 1
         """
     @property
     def kp(self) -> float:
         """
-        K_p of eq. (2), 0 to 10
+        gain on the error of the measured force: K_p of eq. (2), 0 to 10
         """
     @property
     def peak_force(self) -> float:
@@ -4964,9 +4964,9 @@ class TCADamped:
     virtual_damping : float
         virtual damping in contact, B_v; 0 for none [N s/m], 0 to 10000.
     kp : float
-        K_p of eq. (2), 0 to 10.
+        gain on the error of the measured force: K_p of eq. (2), 0 to 10.
     kd : float
-        K_d of eq. (2) [s], 0 to 1.
+        gain on the rate of the error of the measured force: K_d of eq. (2) [s], 0 to 1.
     filter : float
         low-pass on the derivative of the force error [s], 0 to 1.
     peak_force : float
@@ -5089,12 +5089,12 @@ class TCADamped:
     @property
     def kd(self) -> float:
         """
-        K_d of eq. (2) [s], 0 to 1
+        gain on the rate of the error of the measured force: K_d of eq. (2) [s], 0 to 1
         """
     @property
     def kp(self) -> float:
         """
-        K_p of eq. (2), 0 to 10
+        gain on the error of the measured force: K_p of eq. (2), 0 to 10
         """
     @property
     def peak_force(self) -> float:
@@ -5608,9 +5608,9 @@ class VirtualCoupling:
     Parameters
     ----------
     coupling_stiffness : float
-        K_c [N/m], 0 to 1e+07.
+        stiffness of the spring between handle and proxy: K_c [N/m], 0 to 1e+07.
     coupling_damping : float
-        B_c [N s/m], 0 to 10000.
+        damping of the damper between handle and proxy: B_c [N s/m], 0 to 10000.
     count : float
         one encoder count at the handle [m], 0 to 0.01.
     peak_force : float
@@ -5730,12 +5730,12 @@ class VirtualCoupling:
     @property
     def coupling_damping(self) -> float:
         """
-        B_c [N s/m], 0 to 10000
+        damping of the damper between handle and proxy: B_c [N s/m], 0 to 10000
         """
     @property
     def coupling_stiffness(self) -> float:
         """
-        K_c [N/m], 0 to 1e+07
+        stiffness of the spring between handle and proxy: K_c [N/m], 0 to 1e+07
         """
     @property
     def peak_force(self) -> float:
@@ -6377,15 +6377,15 @@ class EBACPrinted:
     damping : float
         lower bound of the device's physical damping, b [N s/m], 0 to 500.
     growth : float
-        c1 of eq. (10), 1 to 1.2.
+        largest beta, as a multiple of that of the last tick: c1 of eq. (10), 1 to 1.2.
     decay : float
-        c2 of eq. (10), 0.8 to 1.
+        smallest beta, as a multiple of that of the last tick: c2 of eq. (10), 0.8 to 1.
     constant_limit : float
         beta_max = -beta_min as a constant; 0 for the bound of Kim and Ryu [N/m], 0 to 1e+07.
     kp : float
-        K_p of eq. (2), 0 to 10.
+        gain on the error of the measured force: K_p of eq. (2), 0 to 10.
     kd : float
-        K_d of eq. (2) [s], 0 to 1.
+        gain on the rate of the error of the measured force: K_d of eq. (2) [s], 0 to 1.
     filter : float
         low-pass on the derivative of the force error [s], 0 to 1.
     peak_force : float
@@ -6531,7 +6531,7 @@ class EBACPrinted:
     @property
     def decay(self) -> float:
         """
-        c2 of eq. (10), 0.8 to 1
+        smallest beta, as a multiple of that of the last tick: c2 of eq. (10), 0.8 to 1
         """
     @property
     def filter(self) -> float:
@@ -6541,17 +6541,17 @@ class EBACPrinted:
     @property
     def growth(self) -> float:
         """
-        c1 of eq. (10), 1 to 1.2
+        largest beta, as a multiple of that of the last tick: c1 of eq. (10), 1 to 1.2
         """
     @property
     def kd(self) -> float:
         """
-        K_d of eq. (2) [s], 0 to 1
+        gain on the rate of the error of the measured force: K_d of eq. (2) [s], 0 to 1
         """
     @property
     def kp(self) -> float:
         """
-        K_p of eq. (2), 0 to 10
+        gain on the error of the measured force: K_p of eq. (2), 0 to 10
         """
     @property
     def peak_force(self) -> float:
@@ -6590,13 +6590,13 @@ class EBAC:
     force_noise : float
         with the observer, standard deviation of the force sensor's noise, which the account does not charge; less than 0.03 N counts as that [N], 0 to 10.
     growth : float
-        c1 of eq. (10), 1 to 1.2.
+        largest beta, as a multiple of that of the last tick: c1 of eq. (10), 1 to 1.2.
     decay : float
-        c2 of eq. (10), 0.8 to 1.
+        smallest beta, as a multiple of that of the last tick: c2 of eq. (10), 0.8 to 1.
     kp : float
-        K_p of eq. (2); it divides the device's damping by 1 + K_p, 0 to 0.5.
+        gain on the error of the measured force: K_p of eq. (2); it divides the device's damping by 1 + K_p, 0 to 0.5.
     kd : float
-        K_d of eq. (2) [s], 0 to 0.01.
+        gain on the rate of the error of the measured force: K_d of eq. (2) [s], 0 to 0.01.
     filter : float
         low-pass on the derivative of the force error [s], 0 to 1.
     fast_stiffness : float
@@ -6612,7 +6612,7 @@ class EBAC:
     observed_reserve : float
         the same with the observer, where less is needed [J], 0 to 1.
     continuity : bool
-        ratio rows of eq. (10), 0 to 1.
+        whether beta is held between its growth and its decay from tick to tick: ratio rows of eq. (10), 0 to 1.
     recovery : bool
         relaxation towards F_e at dx = 0, 0 to 1.
     injection : bool
@@ -6795,7 +6795,7 @@ class EBAC:
     @property
     def continuity(self) -> bool:
         """
-        ratio rows of eq. (10), 0 to 1
+        whether beta is held between its growth and its decay from tick to tick: ratio rows of eq. (10), 0 to 1
         """
     @property
     def count(self) -> float:
@@ -6815,7 +6815,7 @@ class EBAC:
     @property
     def decay(self) -> float:
         """
-        c2 of eq. (10), 0.8 to 1
+        smallest beta, as a multiple of that of the last tick: c2 of eq. (10), 0.8 to 1
         """
     @property
     def fast_stiffness(self) -> float:
@@ -6835,7 +6835,7 @@ class EBAC:
     @property
     def growth(self) -> float:
         """
-        c1 of eq. (10), 1 to 1.2
+        largest beta, as a multiple of that of the last tick: c1 of eq. (10), 1 to 1.2
         """
     @property
     def guard(self) -> bool:
@@ -6855,12 +6855,12 @@ class EBAC:
     @property
     def kd(self) -> float:
         """
-        K_d of eq. (2) [s], 0 to 0.01
+        gain on the rate of the error of the measured force: K_d of eq. (2) [s], 0 to 0.01
         """
     @property
     def kp(self) -> float:
         """
-        K_p of eq. (2); it divides the device's damping by 1 + K_p, 0 to 0.5
+        gain on the error of the measured force: K_p of eq. (2); it divides the device's damping by 1 + K_p, 0 to 0.5
         """
     @property
     def mass(self) -> float:

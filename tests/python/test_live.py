@@ -167,8 +167,8 @@ def test_the_catalogue_is_that_of_the_package(in_javascript: Callable[..., Any])
     assert [law["name"] for law in made["laws"]] == list(ebac.laws.LAWS)
     known = {one["name"]: one for one in made["settings"]}
     assert known["hand.mass"] == {
-        "name": "hand.mass", "unit": "kg", "meaning": "M0 of eq. (4)", "low": 0, "high": 10,
-        "default": 0.15,
+        "name": "hand.mass", "unit": "kg", "low": 0, "high": 10, "default": 0.15,
+        "meaning": "mass of the hand, which moves with the handle: M0 of eq. (4)",
     }  # fmt: skip
     assert set(settings(OTHER)) <= set(known)
     assert [one["name"] for one in made["sliders"]] == list(MOVED)

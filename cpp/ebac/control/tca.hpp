@@ -29,8 +29,10 @@ class Tca {
     static constexpr auto fields() {
       using F = Field<Params>;
       return std::array{
-          F{"kp", &Params::kp, "1", "K_p of eq. (2)", 0, 10},
-          F{"kd", &Params::kd, "s", "K_d of eq. (2)", 0, 1},
+          F{"kp", &Params::kp, "1", "gain on the error of the measured force: K_p of eq. (2)", 0,
+            10},
+          F{"kd", &Params::kd, "s",
+            "gain on the rate of the error of the measured force: K_d of eq. (2)", 0, 1},
           F{"filter", &Params::filter, "s", "low-pass on the derivative of the force error", 0, 1},
           F{"peak_force", &Params::peak_force, "N", "largest command", 1e-3, 1e4},
       };

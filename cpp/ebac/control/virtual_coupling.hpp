@@ -41,8 +41,10 @@ class VirtualCoupling {
     static constexpr auto fields() {
       using F = Field<Params>;
       return std::array{
-          F{"coupling_stiffness", &Params::coupling_stiffness, "N/m", "K_c", 0, 1e7},
-          F{"coupling_damping", &Params::coupling_damping, "N s/m", "B_c", 0, 1e4},
+          F{"coupling_stiffness", &Params::coupling_stiffness, "N/m",
+            "stiffness of the spring between handle and proxy: K_c", 0, 1e7},
+          F{"coupling_damping", &Params::coupling_damping, "N s/m",
+            "damping of the damper between handle and proxy: B_c", 0, 1e4},
           F{"count", &Params::count, "m", "one encoder count at the handle", 0, 0.01},
           F{"peak_force", &Params::peak_force, "N", "largest command", 1e-3, 1e4},
       };

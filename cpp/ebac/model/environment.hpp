@@ -65,8 +65,10 @@ struct Wall {
   static constexpr auto fields() {
     using F = Field<Wall>;
     return std::array{
-        F{"stiffness", &Wall::stiffness, "N/m", "K of eq. (12)", 0, 1e7},
-        F{"damping", &Wall::damping, "N s/m", "B of eq. (12)", 0, 1e4},
+        F{"stiffness", &Wall::stiffness, "N/m",
+          "stiffness of the surface, force per depth: K of eq. (12)", 0, 1e7},
+        F{"damping", &Wall::damping, "N s/m",
+          "damping of the surface, force per speed in contact: B of eq. (12)", 0, 1e4},
         F{"position", &Wall::position, "m", "where its surface cuts the normal through the origin",
           -10, 10},
         F{"angle", &Wall::angle, "rad", "direction into the wall, from +x towards +y", -3.2, 3.2},
@@ -102,8 +104,11 @@ struct Disc {
   static constexpr auto fields() {
     using F = Field<Disc>;
     return std::array{
-        F{"stiffness", &Disc::stiffness, "N/m", "K of eq. (12), along the radius", 0, 1e7},
-        F{"damping", &Disc::damping, "N s/m", "B of eq. (12), along the radius", 0, 1e4},
+        F{"stiffness", &Disc::stiffness, "N/m",
+          "stiffness of the surface, force per depth: K of eq. (12), along the radius", 0, 1e7},
+        F{"damping", &Disc::damping, "N s/m",
+          "damping of the surface, force per speed in contact: B of eq. (12), along the radius", 0,
+          1e4},
         F{"x", &Disc::x, "m", "centre", -10, 10},
         F{"y", &Disc::y, "m", "centre", -10, 10},
         F{"radius", &Disc::radius, "m", "radius", 1e-4, 10},

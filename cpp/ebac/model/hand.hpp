@@ -154,9 +154,12 @@ struct Hand {
   static constexpr auto fields() {
     using F = Field<Hand>;
     return std::array{
-        F{"mass", &Hand::mass, "kg", "M0 of eq. (4)", 0, 10},
-        F{"damping", &Hand::damping, "N s/m", "B0 of eq. (4)", 0, 1e3},
-        F{"stiffness", &Hand::stiffness, "N/m", "K0 of eq. (4)", 0, 1e5},
+        F{"mass", &Hand::mass, "kg", "mass of the hand, which moves with the handle: M0 of eq. (4)",
+          0, 10},
+        F{"damping", &Hand::damping, "N s/m", "damping of the hand, force per speed: B0 of eq. (4)",
+          0, 1e3},
+        F{"stiffness", &Hand::stiffness, "N/m",
+          "stiffness of the hand, force per distance from its target: K0 of eq. (4)", 0, 1e5},
         F{"tremor_amplitude", &Hand::tremor_amplitude, "m",
           "tremor on top of the path, on every axis", 0, 0.1},
         F{"tremor_frequency", &Hand::tremor_frequency, "Hz", "frequency of the tremor", 0, 500},

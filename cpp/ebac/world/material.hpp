@@ -31,8 +31,10 @@ struct Elastic {
   static constexpr auto fields() {
     using F = Field<Elastic>;
     return std::array{
-        F{"stiffness", &Elastic::stiffness, "N/m", "K of eq. (12)", 0, 1e7},
-        F{"damping", &Elastic::damping, "N s/m", "B of eq. (12)", 0, 1e4},
+        F{"stiffness", &Elastic::stiffness, "N/m",
+          "stiffness of the surface, force per depth: K of eq. (12)", 0, 1e7},
+        F{"damping", &Elastic::damping, "N s/m",
+          "damping of the surface, force per speed in contact: B of eq. (12)", 0, 1e4},
     };
   }
 };
