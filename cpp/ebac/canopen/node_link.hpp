@@ -170,7 +170,7 @@ class NodeLink {
     if (owed_ > 0) {
       --owed_;
     } else {
-      twice_ += kTwice;
+      twice_ = std::min(twice_ + kTwice, kForgotten);
     }
   }
 
