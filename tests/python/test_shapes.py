@@ -122,5 +122,5 @@ def test_what_cannot_be_is_refused(
 
 
 def test_nothing_to_compare_is_refused() -> None:
-    with pytest.raises(ValueError, match=r"worlds = \(\): must be a sequence of one at least"):
+    with pytest.raises(ValueError, match=r"worlds = \[\]: is empty; give one at least"):
         shapes(worlds=())

@@ -67,6 +67,86 @@ WRONG: dict[str, tuple[Callable[[], Any], type[Exception], str]] = {
         ValueError,
         "no condition given: tune needs at least one",
     ),
+    "an empty population": (
+        lambda: E.ablation([]),
+        TypeError,
+        "ebac.study takes a population, an Operators, not [] (list)",
+    ),
+    "seed of a study": (
+        lambda: E.study(HANDS, "direct", base=SHORT, seed=[]),
+        TypeError,
+        "study: seed = []: must be a whole number",
+    ),
+    "seed of a search": (
+        lambda: E.tune("tca-damped", ["d1K10"], seed=[]),
+        TypeError,
+        "seed = []: must be a whole number",
+    ),
+    "no ranges": (
+        lambda: E.tune("tca-damped", ranges=3.0),
+        TypeError,
+        "ebac.tune takes ranges by name, as {'kp': (0.1, 10)}, not 3.0 (float)",
+    ),
+    "no condition": (
+        lambda: E.study(HANDS, "direct", [1.5]),
+        TypeError,
+        "ebac.study takes conditions by name, not 1.5 (float)",
+    ),
+    "no stiffness": (
+        lambda: E.stiffest("direct", stiffnesses=["x"]),
+        TypeError,
+        "stiffnesses = 'x': must be a number",
+    ),
+    "no share": (
+        lambda: E.stiffest("direct", share=None),
+        TypeError,
+        "share = None: must be a number",
+    ),
+    "no numbers of a map": (
+        lambda: E.stability_map("direct", base=SHORT, ys=["x", "y"]),
+        TypeError,
+        "stability_map: ys = 'x': must be a number",
+    ),
+    "no dampings of a Z-width": (
+        lambda: E.zwidth("direct", base=SHORT, dampings={}),
+        ValueError,
+        "zwidth: dampings = []: is empty; give one at least",
+    ),
+    "no rates": (
+        lambda: E.engines(["direct"], rates=["x"]),
+        TypeError,
+        "engines: rates = 'x': must be a number",
+    ),
+    "one law of a tissue, letter by letter": (
+        lambda: E.tissue("direct"),
+        TypeError,
+        "tissue: laws = 'direct' (str): must be a sequence, such as ['direct']",
+    ),
+    "materials": (
+        lambda: E.tissue(chosen=3),
+        TypeError,
+        "ebac.tissue takes materials by name, not 3 (int)",
+    ),
+    "shapes of bytes": (
+        lambda: E.shapes(["direct"], worlds=["plane"], stiffnesses=b"x"),
+        TypeError,
+        "stiffnesses = b'x' (bytes): must be a sequence, such as [b'x']",
+    ),
+    "laws beside": (
+        lambda: E.ablation(beside=None),
+        TypeError,
+        "ablation: beside = None (NoneType): must be a sequence, such as [None]",
+    ),
+    "folder": (
+        lambda: E.sweep([SHORT], ["direct"], out={}),
+        TypeError,
+        "ebac.sweep takes the path of a folder as out, not {} (dict)",
+    ),
+    "designed for": (
+        lambda: E.sweep([SHORT], ["direct"], designed_for=3),
+        TypeError,
+        "designed_for takes pairs of Device or DeviceFacts, and Timing, not 3 (int)",
+    ),
     "training": (
         lambda: E.tune("tca-damped", training=3),
         TypeError,

@@ -10,7 +10,7 @@ from textwrap import shorten
 from typing import Any
 
 from ebac._core import Device, Timing
-from ebac._util.arguments import require
+from ebac._util.arguments import require_each, several
 from ebac._util.plural import plural
 from ebac.laws import AnyLaw, changed, design, law_name
 from ebac.laws.protocols import is_core_law
@@ -204,8 +204,8 @@ def pieces(law: AnyLaw, changes: Sequence[Mapping[str, Any]] = ()) -> list[Piece
         {name: not value} for name, value in parameters.items() if isinstance(value, bool)
     ]
     found += [{name: 0.0} for name in GAINS if parameters.get(name, 0) != 0]
-    for one in changes:
-        require(one, Mapping, "ebac.ablation", "changes that are mappings, as [{'guard': False}]")
+    wanted = "changes that are mappings, as [{'guard': False}]"
+    require_each(changes, Mapping, "ebac.ablation", wanted)
     every = [*found, *(dict(one) for one in changes if dict(one) not in found)]
     if not every:
         raise ValueError(
@@ -263,9 +263,10 @@ def ablation(
         variant = changed(law, **piece.changes)
         design(variant, Device(), Timing())  # a change out of range is refused before all work
         laws[_row_name(name, piece)] = variant
-    others = tuple(other for other in beside if other != name)
+    others = tuple(o for o in several("ablation: beside", beside, least=0) if o != name)
     laws |= {other: other for other in others}
-    done = study(population or Operators.grid(), laws, conditions_of(measures), **run)
+    hands = Operators.grid() if population is None else population
+    done = study(hands, laws, conditions_of(measures), **run)
     return Ablation(law=name, pieces=found, beside=others, measures=tuple(measures), study=done)
 
 

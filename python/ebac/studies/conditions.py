@@ -234,6 +234,7 @@ def conditions(names: Iterable[str | Condition]) -> list[Condition]:
     given = [names] if isinstance(names, str) else list(names)
     taken = {*GROUPS, *(one.name for one in given if isinstance(one, Condition))}
     for name in given:
+        require(name, (str, Condition), "ebac.study", "conditions by name")
         if isinstance(name, Condition):
             found[name.name] = name
             continue

@@ -8,7 +8,7 @@ from dataclasses import asdict, dataclass
 from typing import Any
 
 from ebac._core import BridgeParams, EngineTiming, Wall
-from ebac._util.arguments import require, several
+from ebac._util.arguments import require, several, several_numbers
 from ebac.laws import AnyLaw, law_name
 from ebac.metrics import contact
 from ebac.scenario import Environment, Scenario
@@ -131,7 +131,7 @@ def engines(
     world = _bodies(base.environment)
     scenario = base.replace(environment=world)
     worlds: list[World | Bridge] = [world]
-    for rate in several("engines: rates", rates):
+    for rate in several_numbers("engines: rates", rates):
         how: Any = {"rate": rate, "jitter": jitter, "compute": compute, "seed": scenario.seed}
         worlds += [
             behind_engine(world, held=held, rendering=rendering, **how) for held in (True, False)

@@ -11,6 +11,7 @@ import numpy as np
 
 from ebac import presets
 from ebac._core import Device, Hand, Step, Timing
+from ebac._util.arguments import several, several_numbers
 from ebac._util.atomic_file import write_text
 from ebac.laws import AnyLaw, law_name
 from ebac.metrics import allowed_deviation, contact
@@ -152,11 +153,10 @@ def shapes(
     ImportError
         For a mesh without the extra `worlds`.
     """
-    for name, given in (
-        ("laws", laws), ("worlds", worlds), ("stiffnesses", stiffnesses), ("devices", devices)
-    ):  # fmt: skip
-        if isinstance(given, str) or not len(given):
-            raise ValueError(f"{name} = {given!r}: must be a sequence of one at least")
+    several("laws", laws)
+    several("worlds", worlds)
+    several_numbers("stiffnesses", stiffnesses)
+    several("devices", devices)
     clock = Timing() if timing is None else timing
     chosen = {name: _sensed(presets.device(name), noise, lag) for name in devices}
     places, missing = _scenarios(worlds, stiffnesses, chosen, clock)

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ebac._core import Wall
-from ebac._util.arguments import of_percent, require, several
+from ebac._util.arguments import number, of_percent, require, several_numbers
 from ebac._util.progress import Progress
 from ebac.laws import LAWS
 from ebac.operators import Operators
@@ -106,14 +106,14 @@ def stiffest(
 
 def require_share(name: str, share: float) -> None:
     """Raise ValueError unless a share of the hands can be asked for; `name` is what the caller calls it."""
-    if not 0 < share <= 1:
+    if not 0 < number(name, share) <= 1:
         remedy = of_percent(share) or "; 1 asks that every hand is held"
         raise ValueError(f"{name} = {share:g}: must lie in (0, 1]{remedy}")
 
 
 def _ladder(stiffnesses: Sequence[float]) -> NDArray[np.float64]:
     """Return the stiffnesses, each once, softest first [N/m]."""
-    ladder = np.unique(np.array(several("stiffnesses", stiffnesses), float))
+    ladder = np.unique(several_numbers("stiffnesses", stiffnesses))
     for stiffness in ladder:
         if not 0 < stiffness <= MOST:
             raise ValueError(f"stiffnesses: {stiffness:g} N/m: must lie in (0, {MOST:g}] N/m")

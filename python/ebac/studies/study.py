@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ebac._core import Wall
-from ebac._util.arguments import require
+from ebac._util.arguments import require, whole
 from ebac._util.progress import Progress
 from ebac.operators import Operators
 from ebac.scenario import Scenario
@@ -68,6 +68,8 @@ def study(
     """
     require(population, Operators, "ebac.study", "a population, an Operators")
     require(base, (Scenario, NoneType), "ebac.study", "a Scenario as its base")
+    if seed is not None and whole("study: seed", seed) < 0:
+        raise ValueError(f"study: seed = {seed}: must be at least 0")
     if conditions is None:
         conditions = ["d1K10" if base is None else "as-given"]
     chosen = tuple(find(conditions))

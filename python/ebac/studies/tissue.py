@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict, dataclass
+from types import NoneType
 from typing import Any
 
 import numpy as np
 
 from ebac._core import Elastic, Hand, HuntCrossley, Plane, Recorded
+from ebac._util.arguments import require, several
 from ebac.laws import AnyLaw, law_name
 from ebac.metrics import contact
 from ebac.scenario import Scenario
@@ -123,16 +125,18 @@ def tissue(
     ValueError
         For a depth or a speed out of its range.
     """
+    require(chosen, (Mapping, NoneType), "ebac.tissue", "materials by name")
     known = dict(materials() if chosen is None else chosen)
     curves = {name: force_depth(one, depth=depth, speed=speed) for name, one in known.items()}
+    rendered = several("tissue: laws", laws, least=0)
     rows, traces = [], []
     for name, material in known.items():
-        for law in laws:
+        for law in rendered:
             row, trace = _pressed(name, material, law)
             rows.append(row)
             traces.append(trace)
             if progress is not None:
-                progress(len(rows), len(known) * len(laws))
+                progress(len(rows), len(known) * len(rendered))
     return Tissue(curves=curves, rows=tuple(rows), traces=tuple(traces))
 
 

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
-from ebac._util.arguments import require, several, unknown
+from ebac._util.arguments import require, several_numbers, unknown
 from ebac._util.arrays import Values
 from ebac._util.progress import Progress
 from ebac.laws import AnyLaw
@@ -86,15 +86,15 @@ def stability_map(
 
 
 def _axis(name: str) -> MapAxis:
-    if name not in AXES:
+    if not isinstance(name, str) or name not in AXES:
         raise ValueError(unknown(f"map axis {name}", name, list(AXES)))
     return AXES[name]
 
 
 def _rising(which: str, axis: MapAxis, given: Sequence[float] | Values) -> Values:
     """Return values along an axis; a figure has no place for others than rising ones."""
-    values = np.array(several(f"stability_map: {which}", given), float)
-    if values.ndim != 1 or len(values) < 2 or not (np.diff(values) > 0).all():
+    values = np.array(several_numbers(f"stability_map: {which}", given))
+    if len(values) < 2 or not (np.diff(values) > 0).all():
         raise ValueError(
             f"stability_map: {which} = {given} {axis.unit}: must be at least two, rising"
         )

@@ -12,7 +12,7 @@ from typing import Any, TypeAlias
 import numpy as np
 
 from ebac._core import Device, DeviceFacts, RunLimits, Timing
-from ebac._util.arguments import require, whole
+from ebac._util.arguments import require, require_path, whole
 from ebac._util.progress import Progress
 from ebac.laws import AnyLaw, design, law_name
 from ebac.laws.tuned_laws import on_its_observer
@@ -102,6 +102,14 @@ def sweep(
     wanted = "limits=RunLimits(...), beyond which a run ends early (a device's own: ebac.simulate)"
     require(limits, (RunLimits, NoneType), "ebac.sweep", wanted)
     require(executor, (Executor, NoneType), "ebac.sweep", "an executor of concurrent.futures")
+    if out is not None:
+        require_path(out, "ebac.sweep", "the path of a folder as out")
+    require(
+        designed_for,
+        (Sequence, NoneType),
+        "designed_for",
+        "pairs of Device or DeviceFacts, and Timing",
+    )
     _check(scenarios, seed=seed, threads=threads, bundle=bundle, designed_for=designed_for)
     named = name_laws(laws)
     if progress is not None:

@@ -9,7 +9,7 @@ from typing import Any, TypeAlias
 import numpy as np
 
 from ebac._core import Field
-from ebac._util.arguments import number, several, unknown_name
+from ebac._util.arguments import require, several_numbers, unknown_name
 from ebac._util.arrays import Values
 from ebac.laws import AnyLaw, law_name
 from ebac.laws.law_fields import PythonField, fields_of, unit_of
@@ -150,6 +150,7 @@ def _wide(low: float, high: float) -> bool:
 
 def _check(law: AnyLaw, ranges: Mapping[str, Range]) -> None:
     called = law_name(law)
+    require(ranges, Mapping, "ebac.tune", "ranges by name, as {'kp': (0.1, 10)}")
     if not ranges:
         names = ", ".join(RANGES)
         raise ValueError(
@@ -159,7 +160,7 @@ def _check(law: AnyLaw, ranges: Mapping[str, Range]) -> None:
     for name, span in ranges.items():
         if name not in fields:
             raise unknown_name(f"parameter of {called}", name, fields)
-        ends = [number(name, value) for value in several(name, span)]
+        ends = several_numbers(name, span)
         if len(ends) != 2:
             raise ValueError(f"{name} = {ends}: must be its lowest and highest value, as (0.1, 10)")
         low, high = ends

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
-from ebac._util.arguments import require, unknown_name, whole
+from ebac._util.arguments import named, require, whole
 from ebac._util.progress import Progress
 from ebac.laws import LAWS, AnyLaw, Variant, changed, law_name
 from ebac.laws.making import checked
@@ -80,13 +80,15 @@ def tune(
         For a law, or a field of a law in Python, without a range; a parameter it does not have; or a number out of
         range.
     """
-    if isinstance(law, str) and law not in LAWS:
-        raise unknown_name("law", law, LAWS)
+    if isinstance(law, str):
+        named("law", law, LAWS)
     if not isinstance(law, (str, type, Variant)):
         checked(law)
     changed(law)  # refuses a law without parameters
     if whole("evaluations", evaluations) < 2:
         raise ValueError(f"evaluations = {evaluations}: must be at least 2")
+    if whole("seed", seed) < 0:
+        raise ValueError(f"seed = {seed}: must be at least 0")
     searched = Ranges(law, ranges_of(law) if ranges is None else ranges)
     hands = Operators.sample(HANDS, HANDS_SEED) if training is None else training
     others = Operators.grid() if test is None else test

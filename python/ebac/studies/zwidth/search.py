@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ebac._core import LinearLoop, Recorded, Timing, Wall
-from ebac._util.arguments import require, several, whole
+from ebac._util.arguments import require, several, several_numbers, whole
 from ebac._util.arrays import Values
 from ebac.laws import LAWS, AnyLaw
 from ebac.metrics import EXACT_COUNTS, ideal_rest
@@ -254,8 +254,8 @@ def _check(
             f"zwidth: needs a scenario with an ideal rest; here {no_ideal_rest(base) or 'there is no wall'}: give a "
             "wall straight across the first axis, and a hand with a target that does not let go"
         )
-    rising = np.asarray(dampings, float)
-    if rising.ndim != 1 or len(rising) < 2 or rising[0] < 0 or not (np.diff(rising) > 0).all():
+    rising = several_numbers("zwidth: dampings", dampings)
+    if len(rising) < 2 or rising[0] < 0 or not (np.diff(rising) > 0).all():
         raise ValueError(
             f"zwidth: dampings = {dampings} N s/m: must be at least two, rising, from 0 up"
         )
