@@ -51,7 +51,7 @@ WRONG: dict[str, tuple[Callable[[], Any], str]] = {
     "a copy": (lambda: identify.fit_arm([LOG, replace(LOG, name="b")]), "b: holds the same rows as"),
     "starts": (lambda: identify.fit_arm(LOG, starts=1.5), "starts = 1.5: must be a whole number"),  # type: ignore[arg-type]
     "seed": (lambda: identify.fit_arm(LOG, seed=-1), "seed = -1: must be at least 0"),
-    "free": (lambda: identify.fit_arm(LOG, free="delay"), r"free = 'delay': .* such as \['delay'\]"),
+    "free": (lambda: identify.fit_arm(LOG, free="delay"), r"free = 'delay' \(str\): .* such as \['delay'\]"),
     "backwards": (lambda: LOG.between(1.5, 1), "stop = 1 s: must be at least start, 1.5 s"),
     "later": (lambda: LOG.between(9, 10), "outside the run, which spans 0 to 1.999 s"),
     "no time": (lambda: LOG.between(float("nan"), 1), "start = nan s: must be a time"),

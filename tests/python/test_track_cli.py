@@ -124,7 +124,7 @@ def test_the_error_budget_stands_beside_the_table() -> None:
         (["--simulated", "--slack", "0.1"], "--slack = 0.1 m: must lie in [0, 0.02] m"),
         (["--simulated", "--alignment", "-1"], "--alignment = -1: must lie in [0, 100]"),
         (["few.csv"], "few.csv: 2 points: a line needs at least 3"),
-        (["."], "cannot be read (Is a directory)"),
+        (["."], "cannot be read (is a folder; give a file in it)"),
     ],
 )
 def test_bad_input_is_refused_and_nothing_is_written(arguments: list[str], message: str) -> None:

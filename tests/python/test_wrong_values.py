@@ -247,6 +247,122 @@ def trace() -> Any:
             lambda t: E.testing.assert_within_limits(3),
             "ebac.testing.assert_within_limits takes a Trace, not 3 (int)",
         ),
+        (
+            lambda t: E.testing.assert_within_limits(t, force="x"),
+            "force = 'x': must be a number",
+        ),
+        (lambda t: E.testing.assert_passive(t, damping="x"), "damping = 'x': must be a number"),
+        (
+            lambda t: E.testing.compare(t, t, columns="x"),
+            "columns = 'x' (str): must be a sequence, such as ['x']",
+        ),
+        (lambda t: E.metrics.drawn(3), "ebac.metrics.drawn takes a Trace, not 3 (int)"),
+        (
+            lambda t: E.metrics.work_of_surfaces(3),
+            "ebac.metrics.work_of_surfaces takes a Trace, not 3 (int)",
+        ),
+        (
+            lambda t: E.metrics.allowed_deviation(3),
+            "ebac.metrics.allowed_deviation takes a Scenario, not 3 (int)",
+        ),
+        (lambda t: E.replay(t, "direct", scenario=3), "ebac.replay takes a Scenario, not 3 (int)"),
+        (
+            lambda t: E.replay(t, "direct", scenario=""),
+            "ebac.replay takes a Scenario, not '' (str)",
+        ),
+        (lambda t: E.faults.run_campaign(1.5), "cases = 1.5: must be a whole number"),
+        (lambda t: E.faults.run_case(None), "index = None: must be a whole number"),
+        (lambda t: E.faults.run_case(0, seed="x"), "seed = 'x': must be a whole number"),
+        (
+            lambda t: E.gastroscope.Procedure(hand=3),
+            "Procedure.hand = 3 (int): must be a Hand",
+        ),
+        (
+            lambda t: E.gastroscope.Procedure(device=3),
+            "Procedure.device = 3 (int): must be a Device",
+        ),
+        (
+            lambda t: E.gastroscope.Procedure(targets=[1]),
+            "Procedure.targets takes a sequence of Polyp, not 1 (int)",
+        ),
+        (
+            lambda t: E.gastroscope.Procedure(seconds=True),
+            "Procedure.seconds = True: must be a number",
+        ),
+        (
+            lambda t: E.gastroscope.gastroscopy(procedure=3),
+            "ebac.gastroscope.gastroscopy takes a Procedure, not 3 (int)",
+        ),
+        (lambda t: E.gastroscope.gastroscopy(every=1.5), "every = 1.5: must be a whole number"),
+        (
+            lambda t: E.gastroscope.gastroscopy_study(procedure=3),
+            "ebac.gastroscope.gastroscopy_study takes a Procedure, not 3 (int)",
+        ),
+        (lambda t: E.gastroscope.camera("x", 0), "camera: bend_x = 'x': must be a number"),
+        (
+            lambda t: E.gastroscope.camera(0, 0, 3),
+            "ebac.gastroscope.camera takes a Scope, not 3 (int)",
+        ),
+        (
+            lambda t: E.tracking.evaluate(3),
+            "ebac.tracking.evaluate takes a RecordedPath, not 3 (int)",
+        ),
+        (
+            lambda t: E.tracking.error_budget(device=3, runs=2),
+            "ebac.tracking.error_budget takes a Device, not 3 (int)",
+        ),
+        (
+            lambda t: E.tracking.error_budget(sources=0, runs=2),
+            "ebac.tracking.error_budget takes ErrorSources as its sources, not 0 (int)",
+        ),
+        (
+            lambda t: E.tracking.error_budget(seed=[], runs=2),
+            "seed = []: must be a whole number",
+        ),
+        (
+            lambda t: E.tracking.read_path(3),
+            "ebac.tracking.read_path takes the path of a file, not 3 (int)",
+        ),
+        (
+            lambda t: E.paper.report(3, ["eq1"]),
+            "ebac.paper.report takes the path of a folder, not 3 (int)",
+        ),
+        (
+            lambda t: E.paper.report("x", "eq1"),
+            "items = 'eq1' (str): must be a sequence, such as ['eq1']",
+        ),
+        (
+            lambda t: E.datasets.write("circle", 3),
+            "ebac.datasets.write takes the path of a folder, not 3 (int)",
+        ),
+        (lambda t: E.live.page(3), "ebac.live.page takes the path of a file, not 3 (int)"),
+        (lambda t: E.plot.colour(3), "ebac.plot.colour takes the name of a law, not 3 (int)"),
+        (
+            lambda t: E.plot.plot_columns(t, [3]),
+            "ebac.plot.plot_columns takes names of columns, not 3 (int)",
+        ),
+        (
+            lambda t: E.plot.plot_walls([3]),
+            "ebac.plot.plot_walls takes a Trace, or several, not 3 (int)",
+        ),
+        (
+            lambda t: E.plot.plot_world(W.World(W.Plane()), [3]),
+            "ebac.plot.plot_world takes traces, each a Trace, not 3 (int)",
+        ),
+        (
+            lambda t: E.plot.plot_overlay(t, 3),
+            "ebac.plot.plot_overlay takes a golden Trace, not 3 (int)",
+        ),
+        (lambda t: t.rows(0, 1.5), "last = 1.5: must be a whole number"),
+        (
+            lambda t: E.Operators.sample(2, most_pull="x"),
+            "Operators.sample: most_pull = 'x': must be a number",
+        ),
+        (lambda t: E.realtime.measure(seconds="x"), "seconds = 'x': must be a number"),
+        (
+            lambda t: identify.Recording(name="r", t=None, x=np.arange(99)),
+            "r: t = None (NoneType): must be an array of numbers",
+        ),
     ],
 )
 def test_a_value_of_another_type_is_refused_by_name(
@@ -323,6 +439,58 @@ def test_a_value_of_another_type_is_refused_by_name(
             "row 2: m_kg is masked: leave the row out, or give its value",
         ),
         (lambda t: t.head(-3), ValueError, "rows = -3: must be at least 0"),
+        (lambda t: t.rows(-3, 5), ValueError, "first = -3: must be at least 0"),
+        (
+            lambda t: E.testing.assert_within_limits(t, force=-1),
+            ValueError,
+            "force = -1: must not be negative",
+        ),
+        (
+            lambda t: E.testing.compare(t, t, columns=[]),
+            ValueError,
+            "columns = []: is empty; give one at least",
+        ),
+        (
+            lambda t: E.gastroscope.camera(float("nan"), 0),
+            ValueError,
+            "camera: bend_x = nan rad: must be finite",
+        ),
+        (
+            lambda t: identify.Target.tapping(1.0, 1e300),
+            ValueError,
+            "Target.tapping: frequency = 1.0 Hz, seconds = 1e+300 s: must be at most 100000 periods",
+        ),
+        (
+            lambda t: identify.Target.tapping(1.0, 1.0, float("nan")),
+            ValueError,
+            "Target.tapping: start = nan s: must be finite",
+        ),
+        (
+            lambda t: E.Operators(m_kg=10**400, b_Ns_per_m=1, k_N_per_m=100, target_m=0.02),
+            ValueError,
+            f"row 1: m_kg = 1{'0' * 400}: must be a number in kg",
+        ),
+        *(
+            (
+                lambda t, find=find: find([1]),
+                KeyError,
+                f"no {kind} is called [1]{more}",
+            )
+            for find, kind, more in (
+                (
+                    E.teleop.scheme,
+                    "scheme",
+                    "; there are: position-force, master-passivity, two-port-passivity, waves, ebac, two-port-ebac",
+                ),
+                (E.paper.find, "item of the paper", "; `ebac paper --help` lists all"),
+                (E.datasets.write, "data set", "; `ebac demo` lists all"),
+                (
+                    E.gastroscope.configuration,
+                    "configuration of a gastroscope",
+                    "; there are: master, feed, bend",
+                ),
+            )
+        ),
         (
             lambda t: E.presets.hand([1]),
             KeyError,
@@ -400,3 +568,27 @@ def test_a_figure_names_what_it_draws(name: str) -> None:
 def test_arguments_of_studies_are_refused_by_name(call: Callable[[], Any], message: str) -> None:
     with pytest.raises((TypeError, ValueError), match=re.escape(message)):
         call()
+
+
+def test_a_configuration_that_is_none_is_refused_without_a_place_in_the_package() -> None:
+    with pytest.raises(FileNotFoundError, match="no configuration has this name: 'none'"):
+        ebac.datasets.joystick_text("none")
+
+
+@pytest.mark.parametrize(
+    ("given", "message"),
+    [
+        ({"stiffness": float("nan")}, "stiffness = nan N/m: must be finite"),
+        ({"levels": [float("nan")]}, "levels = [nan] m: must be finite"),
+        ({"levels": ["x"]}, "levels = 'x': must be a number"),
+    ],
+)
+def test_a_frequency_response_is_of_finite_numbers(given: dict[str, Any], message: str) -> None:
+    t = np.arange(2000) * 1e-3
+    recording = identify.Recording(name="r", t=t, x=np.sin(9 * t), force=np.cos(9 * t))
+    with pytest.raises((TypeError, ValueError), match=re.escape(message)):
+        identify.frequency_response(recording, **given)
+    with pytest.raises(TypeError, match=re.escape("fit_arm takes fixed values by name")):
+        E.identify.fit_arm(recording, fixed=3)
+    with pytest.raises(TypeError, match=re.escape("ask = None (NoneType): must be a sequence")):
+        E.identify.check_log(recording, ask=None)

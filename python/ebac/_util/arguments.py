@@ -72,6 +72,13 @@ def require(value: Any, types: type | tuple[type, ...], function: str, wanted: s
         raise TypeError(f"{function} takes {wanted}, not {shown(value)}")
 
 
+def require_parts(owner: str, parts: Mapping[str, tuple[Any, type]]) -> None:
+    """Raise TypeError for the first of the parts, each a value and its class, that is not of its class."""
+    for name, (value, kind) in parts.items():
+        if not isinstance(value, kind):
+            raise TypeError(f"{owner}{name} = {shown(value)}: must be a {kind.__name__}")
+
+
 def require_each(values: Any, types: type | tuple[type, ...], function: str, wanted: str) -> None:
     """Raise TypeError unless values are a sequence, of values of one of the types; `wanted` names it for people."""
     require(values, Sequence, function, wanted)

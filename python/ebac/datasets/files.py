@@ -8,7 +8,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING
 
-from ebac._util.arguments import unknown_name
+from ebac._util.arguments import named, require_path
 from ebac._util.atomic_file import draft
 from ebac.datasets import logs, others
 
@@ -78,9 +78,8 @@ def write(name: str, folder: str | Path = ".", *, force: bool = False) -> Path:
     FileExistsError
         When another file of that name exists and `force` is false.
     """
-    if name not in DATASETS:
-        raise unknown_name("data set", name, DATASETS)
-    known = DATASETS[name]
+    known = named("data set", name, DATASETS)
+    require_path(folder, "ebac.datasets.write", "the path of a folder")
     target = Path(folder) / known.file
     target.parent.mkdir(parents=True, exist_ok=True)
     with draft(target) as new, TemporaryDirectory(prefix=".demo-", dir=target.parent) as beside:

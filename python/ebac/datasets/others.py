@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from errno import ENOENT
 from importlib.resources import files
 from typing import TYPE_CHECKING
 
@@ -71,4 +72,7 @@ def joystick_text(name: str = "joystick") -> str:
     FileNotFoundError
         For another name.
     """
-    return (files("ebac.datasets") / f"{name}.toml").read_text(encoding="utf-8")
+    known = {f.name.removesuffix(".toml"): f for f in files("ebac.datasets").iterdir()}
+    if str(name) not in known:
+        raise FileNotFoundError(ENOENT, "no configuration has this name", str(name))
+    return known[name].read_text(encoding="utf-8")

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ebac import _core
+from ebac._util.arguments import whole
 from ebac._util.background import cancellable
 from ebac._util.cores import thread_count
 from ebac.trace import Trace
@@ -154,7 +155,7 @@ def run_campaign(
         ("cases", cases, 1, 10_000_000),
         ("seed", seed, 0, 2**63 - 1),
     ):
-        if not low <= value <= high:
+        if not low <= whole(name, value) <= high:
             raise ValueError(f"{name} = {value}: must lie in [{low}, {high}]")
     columns, verdicts = _run(cases, seed, thread_count(threads), progress)
     names = list(kinds().items())
@@ -216,8 +217,9 @@ def run_case(index: int, *, seed: int = 1) -> FaultCase:
     ValueError
         For an index below 0.
     """
-    if index < 0:
+    if whole("index", index) < 0:
         raise ValueError(f"index = {index}: must be at least 0")
+    whole("seed", seed)
     rows, at, ticks, axis, verdict, breach = _core._fault_case(seed, index)
     names = list(kinds())
     trace = Trace.from_rows(rows, scenario=None, law="ebac", law_repr="")

@@ -5,7 +5,7 @@ from __future__ import annotations
 from importlib.resources import files
 from typing import TYPE_CHECKING
 
-from ebac._util.arguments import UnknownNameError
+from ebac._util.arguments import unknown_name
 
 if TYPE_CHECKING:
     from ebac.hardware import Configuration
@@ -29,9 +29,8 @@ def configuration(part: str) -> Configuration:
     """
     from ebac.hardware import Configuration
 
-    if part not in ("master", "feed", "bend"):
-        raise UnknownNameError(
-            f"no configuration of a gastroscope is called {part!r}: master, feed, bend"
-        )
+    parts = ("master", "feed", "bend")
+    if part not in parts:
+        raise unknown_name("configuration of a gastroscope", part, parts)
     text = (files("ebac.datasets") / f"gastroscope-{part}.toml").read_text(encoding="utf-8")
     return Configuration.from_toml(text, name=f"gastroscope-{part}.toml")

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
+from types import NoneType
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -12,6 +13,7 @@ from numpy.typing import NDArray
 
 from ebac import _core
 from ebac._core import Device, Free, Hand, Master, Patient, Physician, Polyp, Scope, Step
+from ebac._util.arguments import number, require, require_each, require_parts, whole
 from ebac._util.background import cancellable
 from ebac._util.plural import plural
 from ebac.gastroscope.lumen import Lumen
@@ -64,12 +66,14 @@ class Procedure:
     seconds : float
         After which a run ends [s], (0, 3600].
     seed : int
-        Of the physician's and the force sensor's noise.
+        Of the physician's and the force sensor's noise, [0, 2^63).
 
     Raises
     ------
     ValueError
-        For a start or a length out of its range, or a device with too few axes.
+        For a start, a length or a seed out of its range, or a device with too few axes.
+    TypeError
+        When a part is of a wrong type.
     """
 
     scope: Scope = field(default_factory=Scope)
@@ -84,10 +88,13 @@ class Procedure:
     seed: int = 1
 
     def __post_init__(self) -> None:
-        """Check the ranges."""
-        if not 0.08 <= self.start <= 0.5:
+        """Check types and ranges."""
+        self._check_types()
+        if not 0 <= whole("Procedure.seed", self.seed) < 2**63:
+            raise ValueError(f"Procedure.seed = {self.seed}: must lie in [0, 2^63)")
+        if not 0.08 <= number("Procedure.start", self.start) <= 0.5:
             raise ValueError(f"Procedure.start = {self.start} m: must lie in [0.08, 0.5] m")
-        if not 0 < self.seconds <= 3600:
+        if not 0 < number("Procedure.seconds", self.seconds) <= 3600:
             raise ValueError(f"Procedure.seconds = {self.seconds} s: must lie in (0, 3600] s")
         needed = 2 if self.master.insertion == 0 else 3
         if self.device is not None and self.device.axes < needed:
@@ -95,6 +102,20 @@ class Procedure:
                 f"Procedure.device: has {plural(self.device.axes, 'axis', 'axes')}, the mapping needs {needed}; "
                 "give another device, or Master(insertion=0) with pedals"
             )
+
+    def _check_types(self) -> None:
+        parts: dict[str, tuple[Any, type]] = {
+            "scope": (self.scope, Scope),
+            "lumen": (self.lumen, Lumen),
+            "master": (self.master, Master),
+            "physician": (self.physician, Physician),
+            "hand": (self.hand, Hand),
+        }
+        if self.device is not None:
+            parts["device"] = (self.device, Device)
+        require_parts("Procedure.", parts)
+        if self.targets is not None:
+            require_each(self.targets, Polyp, "Procedure.targets", "a sequence of Polyp")
 
     def scenario(self) -> Scenario:
         """Return joystick and hand: two axes with pedals, three without."""
@@ -245,7 +266,8 @@ def gastroscopy(
     TypeError
         For a law written in Python.
     """
-    if not 1 <= every <= 10000:
+    require(procedure, (Procedure, NoneType), "ebac.gastroscope.gastroscopy", "a Procedure")
+    if not 1 <= whole("every", every) <= 10000:
         raise ValueError(f"every = {every}: must lie in [1, 10000]")
     given = Procedure() if procedure is None else procedure
     scenario = on_its_observer(given.scenario(), law)

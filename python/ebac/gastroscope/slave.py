@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from math import isfinite
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ebac._core import Scope, _camera, _Slave
-from ebac._util.arguments import number
+from ebac._util.arguments import number, require
 from ebac.gastroscope.lumen import Lumen
 
 
@@ -46,11 +47,22 @@ def camera(bend_x: float, bend_y: float, scope: Scope | None = None) -> Camera:
     Camera
         Its place [m], its axes, and how the place changes.
 
+    Raises
+    ------
+    ValueError
+        For a bend that is not finite.
+    TypeError
+        For a bend that is no number, or a scope of another type.
+
     References
     ----------
     R. J. Webster and B. A. Jones, Int. J. Robotics Research 29 (2010) 1661-1683.
     """
     known = Scope() if scope is None else scope
+    require(known, Scope, "ebac.gastroscope.camera", "a Scope")
+    for name, bend in (("bend_x", bend_x), ("bend_y", bend_y)):
+        if not isfinite(number(f"camera: {name}", bend)):
+            raise ValueError(f"camera: {name} = {bend} rad: must be finite")
     at, right, down, ahead, columns = _camera(bend_x, bend_y, known.section, known.tip)
     return Camera(np.array(at), np.array([right, down, ahead]), np.array(columns).T)
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict, dataclass, replace
 from statistics import NormalDist
+from types import NoneType
 from typing import Any
 
 import numpy as np
@@ -12,7 +13,7 @@ from numpy.typing import NDArray
 
 from ebac import _core
 from ebac._core import Device, Hand, Linear, Master
-from ebac._util.arguments import each_once, number, several, whole
+from ebac._util.arguments import each_once, number, require, several, whole
 from ebac._util.background import cancellable
 from ebac._util.cores import thread_count
 from ebac.gastroscope.procedure import Procedure, core_law
@@ -176,6 +177,10 @@ def gastroscopy_study(
     delays = each_once("delays", [number("delays", one) for one in several("delays", delays)], "s")
     if not 2 <= whole("count", count) <= 10000:
         raise ValueError(f"count = {count}: must lie in [2, 10000] physicians")
+    if whole("seed", seed) < 0:
+        raise ValueError(f"seed = {seed}: must be at least 0")
+    wanted = (Procedure, NoneType)
+    require(procedure, wanted, "ebac.gastroscope.gastroscopy_study", "a Procedure")
     cores = thread_count(threads)
     base = Procedure(device=STRAIGHT) if procedure is None else procedure
     cells = [

@@ -6,11 +6,12 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from math import erf, exp, pi, sqrt
 from time import perf_counter
+from types import NoneType
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ebac._util.arguments import number, require, whole
+from ebac._util.arguments import number, require, several, whole
 from ebac.identify.fit import Fitted
 from ebac.identify.informativeness import FASTEST
 from ebac.identify.intervals import Z95
@@ -93,9 +94,9 @@ def fit_arm(
     else:
         require(targets, (Target, Sequence), "fit_arm", "a Target, or one for each recording")
         targets = [targets] * len(recordings) if isinstance(targets, Target) else targets
-    for name, names in (("free", free), ("own", own)):
-        if isinstance(names, str):
-            raise TypeError(f"{name} = {names!r}: must be a sequence, such as [{names!r}]")
+    free, own = several("free", free, least=0), several("own", own, least=0)
+    require(fixed, (Mapping, NoneType), "fit_arm", "fixed values by name, as {'M0': 0.5}")
+    require(bounds, (Mapping, NoneType), "fit_arm", "bounds by name, as {'M0': (0.1, 1)}")
     _check(recordings, targets, starts, robust, seed)
     recordings = with_own_names(recordings)
     parameters = lay_out(

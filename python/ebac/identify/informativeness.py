@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ebac._util.arguments import unknown, unknown_name
+from ebac._util.arguments import named, several, unknown
 from ebac._util.arrays import Values
 from ebac.identify.guess import regression, solve
 from ebac.identify.intervals import Z95
@@ -66,9 +66,7 @@ class LogCheck:
 
     def determines(self, name: str) -> bool:
         """Whether the log would determine a parameter."""
-        if name not in self.deviation:
-            raise unknown_name("parameter", name, self.deviation)
-        return self.deviation[name] * Z95 <= DETERMINED
+        return named("parameter", name, self.deviation) * Z95 <= DETERMINED
 
     def bands_in_words(self) -> str:
         """Return the bands in words, such as "0.5 to 6 Hz, 9 to 10 Hz"; of many bands the first and the last."""
@@ -119,6 +117,7 @@ def check_log(
         For an unknown name, a recording without force, or a recording that is too short.
     """
     require_recordings(recording, "check_log", rotary=True)  # shares have no unit
+    ask = several("ask", ask, least=0)
     for name in ask:
         if name not in ASKED:
             raise ValueError(unknown(f"parameter {name}", name, list(ASKED)))

@@ -123,7 +123,7 @@ class Recording:
 
     def __post_init__(self) -> None:
         """Check lengths, numbers and times."""
-        for name, values in self._columns().items():
+        for name, values in ({"t": self.t, "x": self.x} | self._columns()).items():
             object.__setattr__(self, name, _numbers(f"{self.name}: {name}", values))
         n = self.t.size
         if n < LEAST_ROWS:

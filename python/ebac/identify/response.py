@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from ebac._util.arguments import number, several_numbers
 from ebac._util.arrays import Values
 from ebac.identify.missing import force_of_hand
 from ebac.identify.recording import Recording
@@ -170,17 +171,22 @@ def frequency_response(
     Raises
     ------
     ValueError
-        Without force, when the recording is too short for four segments, or for another number of levels than the
-        target has.
+        Without force, when the recording is too short for four segments, for another number of levels than the
+        target has, or for a number that is not finite.
     """
     require_recordings(recording, "frequency_response")
     target = Target.held() if target is None else target
     require_target(recording, target, "frequency_response")
-    levels = np.zeros(target.levels) if levels is None else np.asarray(levels, dtype=float)
+    given = [0.0] * target.levels if levels is None else several_numbers("levels", levels)
+    levels = np.array(given)
     if levels.shape != (target.levels,):
         raise ValueError(
             f"levels has the shape {levels.shape}: must be ({target.levels},), a place [m] for each level of the target"
         )
+    if not np.isfinite(levels).all():
+        raise ValueError(f"levels = {given} m: must be finite")
+    if not np.isfinite(number("stiffness", stiffness)):
+        raise ValueError(f"stiffness = {stiffness} N/m: must be finite")
     if len(recording.stretches) > 1:
         part = max(recording.stretches, key=lambda rows: rows.stop - rows.start)
         target, used = target.cut(recording, part)

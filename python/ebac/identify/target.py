@@ -15,6 +15,9 @@ from ebac._util.arguments import number, require, whole
 from ebac._util.wrong_calls import plain_constructor
 from ebac.identify.recording import Recording
 
+#: More than this of tapping are no recording, but a wrong unit.
+MOST_PERIODS = 1e5
+
 Path: TypeAlias = MinimumJerk | Recorded | Sine | Step | Tapping
 
 
@@ -101,14 +104,20 @@ class Target:
         Raises
         ------
         ValueError
-            For a frequency or a length that is not above 0.
+            For a frequency or a length that is not above 0, more than 100,000 periods, or a start that is not finite.
         """
         number("Target.tapping: frequency", frequency)
         number("Target.tapping: seconds", seconds)
-        number("Target.tapping: start", start)
+        if not np.isfinite(number("Target.tapping: start", start)):
+            raise ValueError(f"Target.tapping: start = {start} s: must be finite")
         if not (frequency > 0 and seconds > 0):
             raise ValueError(
                 f"Target.tapping: frequency = {frequency} Hz, seconds = {seconds} s: must be positive"
+            )
+        if not frequency * seconds <= MOST_PERIODS:
+            raise ValueError(
+                f"Target.tapping: frequency = {frequency} Hz, seconds = {seconds} s: must be at most "
+                f"{MOST_PERIODS:g} periods"
             )
         half = 0.5 / frequency
         first = int(np.floor(start / half))

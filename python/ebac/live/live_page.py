@@ -8,6 +8,7 @@ from pathlib import Path
 
 from ebac import presets
 from ebac._core import Hand
+from ebac._util.arguments import require_path
 from ebac._util.atomic_file import write_text
 from ebac._util.law_colours import COLOURS
 from ebac.live.wasm_module import WEB, module, script
@@ -61,6 +62,8 @@ def page(
     OSError
         When the file cannot be written; one of that name stays as it is.
     """
+    if path is not None:
+        require_path(path, "ebac.live.page")
     hands = [
         {"name": name, "about": about, "settings": _settings(presets.HANDS[name].hand)}
         for name, about in HANDS.items()

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from ebac._util import serialisation
-from ebac._util.arguments import require, unknown_name
+from ebac._util.arguments import named, require
 from ebac._util.law_colours import COLOURS
 from ebac.laws import LAWS
 from ebac.live.settings import options, settings
@@ -101,8 +101,7 @@ def widget(scenario: Scenario | None = None, law: str = "ebac") -> AnyWidget:
         raise ImportError("the widget needs anywidget: pip install 'ebac[notebook]'") from error
     start = Scenario(seconds=2.0) if scenario is None else scenario
     require(start, Scenario, "ebac.live.widget", "a Scenario")
-    if law not in LAWS:
-        raise unknown_name("law", law, list(LAWS))
+    named("law", law, LAWS)
     if start.seconds > LONGEST:
         raise ValueError(f"Scenario.seconds = {start.seconds:g} s: must lie in (0, {LONGEST:g}] s")
 

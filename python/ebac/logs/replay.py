@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import warnings
 from pathlib import Path
+from types import NoneType
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -18,10 +19,10 @@ from ebac.laws.tuned_laws import on_its_observer
 from ebac.laws.variant import law_text
 from ebac.logs.log import Log
 from ebac.logs.sensor_rows import force_age, force_status
+from ebac.scenario import Scenario
 
 if TYPE_CHECKING:
     from ebac._core import Device
-    from ebac.scenario import Scenario
     from ebac.trace import Trace
 
 #: The state of a loop in which the law acts, in the column `state` of a log that has one.
@@ -92,7 +93,8 @@ def replay(
     from ebac.trace import Trace
 
     recorded = _ran(_trace_of(log))
-    scenario = scenario or recorded.scenario
+    require(scenario, (Scenario, NoneType), "ebac.replay", "a Scenario")
+    scenario = recorded.scenario if scenario is None else scenario
     if scenario is None:
         raise ValueError(
             "replay: the log has no scenario, so device and virtual world are unknown; give scenario=..."

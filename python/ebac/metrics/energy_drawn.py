@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from ebac._util.arguments import require
 from ebac.trace import Trace
 
 
@@ -25,7 +26,10 @@ def drawn(trace: Trace) -> float:
     ------
     ValueError
         For a trace without its scenario.
+    KeyError
+        For a recorded run, which has no column `true.energy`.
     """
+    require(trace, Trace, "ebac.metrics.drawn", "a Trace")
     energy = trace["true.energy"].reshape(len(trace), -1).sum(axis=1)
     return max(0.0, -float((energy - work_of_surfaces(trace)).min()))
 
@@ -43,6 +47,7 @@ def work_of_surfaces(trace: Trace) -> NDArray[np.float64]:
     ValueError
         For a trace without its scenario.
     """
+    require(trace, Trace, "ebac.metrics.work_of_surfaces", "a Trace")
     if trace.scenario is None:
         raise ValueError("the trace has no scenario, whose delay is needed; simulate it")
     rows, late = len(trace), trace.scenario.timing.delay + 1

@@ -53,6 +53,7 @@ def allowed_deviation(scenario: Scenario) -> float:
     float
         Distance [m], at least two counts.
     """
+    require(scenario, Scenario, "ebac.metrics.allowed_deviation", "a Scenario")
     scenario = without_engine(scenario)
     mechanics, wall = scenario.device.mechanics, scenario.environment
     counts = EXACT_COUNTS * scenario.device.count

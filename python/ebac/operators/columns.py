@@ -122,11 +122,11 @@ def numbers(name: str, values: ArrayLike) -> NDArray[np.float64]:
         raise ValueError(f"row {row}: {name} is masked: leave the row out, or give its value")
     try:
         return np.array(values, float)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         for i, value in enumerate(np.atleast_1d(np.array(values, object)).tolist(), 1):
             try:
                 float(value)
-            except (TypeError, ValueError):
+            except (TypeError, ValueError, OverflowError):
                 unit = OPERATOR_COLUMNS[name].unit
                 raise ValueError(
                     f"row {i}: {name} = {value!r}: must be a number in {unit}"

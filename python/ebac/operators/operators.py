@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ebac._core import Hand, Step, Wall
-from ebac._util.arguments import require, require_file, require_path, unknown, whole
+from ebac._util.arguments import number, require, require_file, require_path, unknown, whole
 from ebac._util.atomic_file import draft
 from ebac._util.need import need
 from ebac._util.wrong_calls import plain_constructor
@@ -144,6 +144,7 @@ class Operators:
             The same for all: `approach_m`, `tremor_m`, `tremor_Hz`.
         """
         n, seed = whole("Operators.sample: n", n), whole("Operators.sample: seed", seed)
+        most_pull = number("Operators.sample: most_pull", most_pull)
         for name, value, least in (("n", n, 1), ("seed", seed, 0), ("most_pull", most_pull, 0.5)):
             if not value >= least:
                 raise ValueError(f"Operators.sample: {name} = {value}: must be at least {least}")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from ebac._util.arguments import unknown_name
+from ebac._util.arguments import named
 from ebac.paper.drawings import fig1, fig2, fig3, fig4, fig10
 from ebac.paper.equations import eq2, eq3, eq8, eq9, eq10, eq11, eq12
 from ebac.paper.fig5 import fig5
@@ -36,6 +36,4 @@ def find(name: str) -> Finding:
     KeyError
         When there is no such item; the message lists them.
     """
-    if name not in ITEMS:
-        raise unknown_name("item of the paper", name, ITEMS)
-    return ITEMS[name]()
+    return named("item of the paper", name, ITEMS)()

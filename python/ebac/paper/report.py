@@ -7,6 +7,7 @@ from collections.abc import Iterable
 from pathlib import Path
 
 from ebac._util import formatting
+from ebac._util.arguments import require_path, several
 from ebac._util.atomic_folder import filled
 from ebac.paper.finding import Finding, Row
 from ebac.paper.items import find
@@ -34,8 +35,10 @@ def report(out_dir: str | Path, items: Iterable[str | Finding]) -> list[Path]:
     OSError
         When the folder cannot be written.
     """
+    require_path(out_dir, "ebac.paper.report", "the path of a folder")
+    wanted = several("items", items, least=0)
     with filled(out_dir) as draft:
-        findings = [item if isinstance(item, Finding) else find(item) for item in items]
+        findings = [item if isinstance(item, Finding) else find(item) for item in wanted]
         write(draft, findings)
         names = sorted(file.name for file in draft.iterdir())
     return [Path(out_dir) / name for name in names]

@@ -8,9 +8,10 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from ebac._util import formatting
-from ebac._util.arguments import require, several
+from ebac._util.arguments import require, require_each, several
 from ebac._util.arrays import Values
 from ebac._util.gaps import alone
+from ebac._util.plural import plural
 from ebac.plot.decades import limit_of, set_decades
 from ebac.plot.marks import mark_end, no_beta, title
 from ebac.plot.style import Picture, dress, legend, line, new_figure
@@ -48,8 +49,9 @@ def plot_columns(trace: Trace, names: Sequence[str]) -> Picture:
     require(trace, Trace, "ebac.plot.plot_columns", "a Trace")
     names = several("plot_columns: names", names)
     if len(trace) < 2:
-        raise ValueError(f"the trace has {len(trace)} rows: a figure needs at least 2")
+        raise ValueError(f"the trace has {plural(len(trace), 'row')}: a figure needs at least 2")
     panels: dict[str, list[str]] = {}
+    require_each(names, str, "ebac.plot.plot_columns", "names of columns")
     for name in dict.fromkeys(names):
         column, _ = _axes(trace, name)
         panels.setdefault(trace.columns[column].unit, []).append(name)

@@ -10,6 +10,7 @@ from matplotlib.axes import Axes
 from numpy.typing import NDArray
 
 from ebac._util import formatting
+from ebac._util.arguments import require, require_each
 from ebac.plot.style import Picture, colour, dress, legend, line, new_figure
 from ebac.plot.takes import takes_its_class
 from ebac.trace import Trace
@@ -39,6 +40,10 @@ def plot_overlay(found: Trace, golden: Trace, divergences: Sequence[Divergence] 
     Figure
         Of the whole run, or of the part in which the traces differ where that is short.
     """
+    require(golden, Trace, "ebac.plot.plot_overlay", "a golden Trace")
+    from ebac.testing.compare import Divergence
+
+    require_each(divergences, Divergence, "ebac.plot.plot_overlay", "divergences, as of compare")
     shown = list(divergences)[:MOST_CHANNELS]
     channels = [d.channel for d in shown] or [c for c in ("x", "f_cmd") if c in found][:2]
     series = {name: (info.unit, values) for name, info, values in found.flat()}

@@ -11,6 +11,7 @@ from matplotlib.gridspec import GridSpec
 
 from ebac._util.arguments import require
 from ebac._util.arrays import Values
+from ebac._util.plural import plural
 from ebac.plot.columns import plot_columns
 from ebac.plot.decades import limit_of, set_decades
 from ebac.plot.marks import mark_changes, mark_end, no_beta, title, used_axes
@@ -79,7 +80,7 @@ def plot_trace(trace: Trace, *, events: Sequence[Event] = ()) -> Picture:
     """
     require(trace, Trace, "ebac.plot.plot_trace", "a Trace")
     if len(trace) < 2:
-        raise ValueError(f"the trace has {len(trace)} rows: a figure needs at least 2")
+        raise ValueError(f"the trace has {plural(len(trace), 'row')}: a figure needs at least 2")
     if not all(name in trace for name in LOOP):
         others = [name for name in trace if name not in ("t", "tick")]
         moving = [name for name in others if (trace[name] != trace[name][:1]).any()]

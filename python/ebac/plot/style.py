@@ -19,6 +19,7 @@ from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 from numpy.typing import NDArray
 
 from ebac._core import Wall
+from ebac._util.arguments import require
 from ebac._util.arrays import Values
 from ebac._util.atomic_file import draft
 from ebac._util.law_colours import COLOURS
@@ -141,6 +142,7 @@ def colour(law: str) -> str:
     str
         As matplotlib takes it.
     """
+    require(law, str, "ebac.plot.colour", "the name of a law")
     return _own_colour(law) or OTHER_LAWS[0]
 
 

@@ -11,7 +11,7 @@ import numpy as np
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 
-from ebac._util.arguments import require
+from ebac._util.arguments import require_each
 from ebac.metrics import STILL_SWING, TAIL_SHARE, ideal_rest
 from ebac.plot.marks import for_laws, heading
 from ebac.plot.style import Picture, colours, dress, figure_legend, landmarks, new_figure
@@ -55,7 +55,9 @@ def plot_walls(traces: Trace | Sequence[Trace] | Mapping[str, Trace]) -> Picture
     ValueError
         When there is no trace or one is too short.
     """
-    require(traces, (Trace, Sequence, Mapping), "ebac.plot.plot_walls", "a Trace, or several")
+    each = [traces] if isinstance(traces, Trace) else traces
+    each = list(each.values()) if isinstance(each, Mapping) else each
+    require_each(each, Trace, "ebac.plot.plot_walls", "a Trace, or several")
     named = _named(traces)
     if not named or min(map(len, named.values())) < 10:
         raise ValueError("a figure of walls needs at least one trace, each of at least 10 rows")

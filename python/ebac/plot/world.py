@@ -12,7 +12,7 @@ from matplotlib.ticker import MaxNLocator
 from numpy.typing import NDArray
 
 from ebac._util import descriptions
-from ebac._util.arguments import require
+from ebac._util.arguments import require, require_each
 from ebac._util.arrays import Values
 from ebac.plot.style import Picture, colour, dress, legend, new_figure
 from ebac.trace import Trace
@@ -53,6 +53,7 @@ def plot_world(world: World, traces: Sequence[Trace] = ()) -> Picture:
     Figure
     """
     require(world, World, "ebac.plot.plot_world", "a World")
+    require_each(traces, Trace, "ebac.plot.plot_world", "traces, each a Trace")
     directions = (1, 2) if any(trace.axes > 2 for trace in traces) else (1,)
     figure = new_figure(5.5 + 5.5 * len(directions), 4.9)
     view, *cuts = figure.subplots(1, 1 + len(directions))

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ebac import _core
+from ebac._util.arguments import number
 from ebac.realtime.mode import Mode, mode_named
 
 #: The longest that is measured [s].
@@ -163,9 +164,9 @@ def measure(
     RuntimeError
         With "enforce", when something was not granted: what, why, and the command that would grant it.
     """
-    if not 0 < seconds <= LONGEST:
+    if not 0 < number("seconds", seconds) <= LONGEST:
         raise ValueError(f"seconds = {seconds:g} s: must lie in (0, {LONGEST:g}] s")
-    if not 10 <= rate <= 1e5:
+    if not 10 <= number("rate", rate) <= 1e5:
         raise ValueError(f"rate = {rate:g} Hz: must lie in [10, 100000] Hz")
     lateness, skipped, grants = _core._measure_jitter(
         1 / rate,

@@ -11,7 +11,7 @@ import numpy.typing as npt
 
 from ebac import _core
 from ebac._core import STILL_SWING, TAIL_SHARE, Free, Hand, Link, MinimumJerk, SlaveModel
-from ebac._util.arguments import named, number, require, shown, whole
+from ebac._util.arguments import named, number, require, require_parts, whole
 from ebac.laws import AnyLaw, design, law_name
 from ebac.laws.making import compiled
 from ebac.laws.tuned_laws import on_its_observer
@@ -234,10 +234,11 @@ def simulate(
         raise ValueError(
             f"device: has {given.device.axes} axes; teleoperation is for one axis so far"
         )
+    acting = chosen.law if law is None else law
     path = hand or Hand(path=[MinimumJerk(target=0.045, at=1.2, duration=0.8)])
     full = given.replace(environment=Free(), hand=path, seconds=seconds, seed=seed)
-    setup = on_its_observer(full, law or chosen.law).setup()
-    made = compiled(design(law or chosen.law, given.device, given.known_timing))
+    setup = on_its_observer(full, acting).setup()
+    made = compiled(design(acting, given.device, given.known_timing))
     to_slave = there or Link()
     to_master = back or to_slave
     model = slave or SlaveModel()
@@ -253,7 +254,7 @@ def simulate(
     at_master, at_slave = columns.pop("at_master"), columns.pop("at_slave")
     return Run(
         scheme=chosen,
-        law=law_name(law or chosen.law),
+        law=law_name(acting),
         columns=columns,
         slave=model,
         there=to_slave,
@@ -278,6 +279,5 @@ _PARTS: Mapping[str, type] = {
 def _check_parts(**given: Any) -> None:
     """Refuse a part of a wrong type; None stands for the default."""
     for name, value in given.items():
-        kind = _PARTS[name]
-        if value is not None and not isinstance(value, kind):
-            raise TypeError(f"teleop.simulate: {name} = {shown(value)}: must be a {kind.__name__}")
+        if value is not None:
+            require_parts("teleop.simulate: ", {name: (value, _PARTS[name])})

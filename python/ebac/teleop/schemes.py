@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from ebac._core import Coupling
-from ebac._util.arguments import unknown_name
+from ebac._util.arguments import named
 
 POSITION_FORCE, PASSIVITY, WAVES = 0, 1, 2
 
@@ -107,9 +107,7 @@ def scheme(name: str) -> Scheme:
     KeyError
         For an unknown name; the message names the nearest.
     """
-    if name not in SCHEMES:
-        raise unknown_name("scheme", name, SCHEMES)
-    return SCHEMES[name]
+    return named("scheme", name, SCHEMES)
 
 
 def chosen_scheme(given: str | Scheme) -> Scheme:

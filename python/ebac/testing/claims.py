@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ebac._util.arguments import number, require
+from ebac._util.plural import plural
 from ebac.metrics import FEWEST_ROWS, STILL_SWING, TAIL_SHARE
 from ebac.trace import Trace
 
@@ -29,7 +30,7 @@ def assert_passive(
     reserve : float
         Reserve e(0) of eq. (3) [J], >= 0.
     damping : float, optional
-        Physical damping of the device per axis [N s/m], for a trace without `true.energy`.
+        Physical damping of the device per axis [N s/m], >= 0, for a trace without `true.energy`.
     tolerance : float
         What rounding may come to [J], >= 0.
 
@@ -43,6 +44,8 @@ def assert_passive(
     __tracebackhide__ = True
     require(trace, Trace, "ebac.testing.assert_passive", "a Trace")
     _not_negative(reserve=reserve, tolerance=tolerance)
+    if damping is not None:
+        _not_negative(damping=damping)
     _not_empty(trace)
     energy, how = _energy(trace, damping)
     _finite("energy", energy, trace)
@@ -80,7 +83,7 @@ def assert_settles(
     require(trace, Trace, "ebac.testing.assert_settles", "a Trace")
     _not_negative(within=within, band=band)
     if len(trace) < FEWEST_ROWS:
-        raise ValueError(f"the trace has {len(trace)} rows: needs at least {FEWEST_ROWS}")
+        raise ValueError(f"the trace has {plural(len(trace), 'row')}: needs at least {FEWEST_ROWS}")
     t = trace["t"] - trace["t"][0]
     x = trace.axis("true.x" if "true.x" in trace else "x", axis)
     _finite("position", x, trace)
@@ -176,9 +179,10 @@ def assert_within_limits(
         device = trace.scenario.device
         force = device.peak_force if force is None else force
         current = device.drive.peak_current(device.motor) if current is None else current
+    given = {"force": force, "current": current, "travel": travel, "speed": speed}
+    _not_negative(**{name: limit for name, limit in given.items() if limit is not None})
     limits = {"f_cmd": force, "current_applied": current, "x": travel, "v": speed}
     known = {name: limit for name, limit in limits.items() if limit is not None}
-    _not_negative(**known)
     if not known:
         raise ValueError(
             "no limit given, and the trace has no scenario: give force=, current=, ..."
@@ -207,7 +211,6 @@ def _energy(trace: Trace, damping: float | None) -> tuple[NDArray[Any], str]:
         raise ValueError(
             "the trace has no column true.energy: give damping= [N s/m] of the device, to count what can be observed"
         )
-    _not_negative(damping=damping)
     # `dt` has one value per axis where `dx` has.
     dt, dx, force = (trace[name].reshape(len(trace), -1) for name in ("dt", "dx", "f_applied"))
     rate = np.divide(damping, dt, out=np.zeros_like(dt), where=dt > 0)

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ebac._util import formatting
-from ebac._util.arguments import require
+from ebac._util.arguments import require, several
 from ebac._util.plural import plural
 from ebac.testing.tolerance import Tolerance, default_tolerance
 from ebac.trace import Trace
@@ -141,7 +141,11 @@ def compare(
             f"the trace has {_shape(trace)}, the golden one {_shape(golden)}: "
             "only traces of the same rows and axes can be compared"
         )
-    chosen = [name for name in golden if name != "tick"] if columns is None else list(columns)
+    chosen = (
+        [name for name in golden if name != "tick"]
+        if columns is None
+        else several("columns", columns)
+    )
     own = dict(tolerances or {})
     check_columns(own, chosen)
     found: list[Divergence] = []
@@ -150,9 +154,9 @@ def compare(
         unit = golden.columns[name].unit if name in golden else ""
         kind = golden[name].dtype.kind
         tolerance = own.get(name, default_tolerance(unit, kind))
-        several = golden.axes > 1 and golden[name].ndim > 1
-        for axis in range(golden.axes if several else 1):
-            channel = f"{name}_{axis}" if several else name
+        by_axis = golden.axes > 1 and golden[name].ndim > 1
+        for axis in range(golden.axes if by_axis else 1):
+            channel = f"{name}_{axis}" if by_axis else name
             channels.append(channel)
             difference = _channel(trace, golden, name, axis, channel, tolerance)
             if difference is not None:

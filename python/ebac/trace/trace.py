@@ -164,7 +164,16 @@ class Trace:
         return self.rows(*rows_between(self._data["t"], start, stop, step))
 
     def rows(self, first: int, last: int) -> Self:
-        """Return the rows first, ..., last - 1, as views."""
+        """Return the rows first, ..., last - 1, as views; fewer where the trace ends before.
+
+        Raises
+        ------
+        ValueError
+            For a row below 0.
+        """
+        for name, row in (("first", first), ("last", last)):
+            if whole(name, row) < 0:
+                raise ValueError(f"{name} = {row}: must be at least 0")
         part = {name: values[first:last] for name, values in self._data.items()}
         return self._with(part)
 

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from ebac._core import Device
-from ebac._util.arguments import number, whole
+from ebac._util.arguments import number, require, whole
 from ebac._util.arrays import Values
 from ebac.tracking.circle import fit_circle
 from ebac.tracking.error_sources import GROUPS, ErrorSources, Joystick
@@ -122,7 +122,7 @@ def error_budget(
     runs : int
         Joysticks for each row, [2, 100000].
     seed : int
-        Seed of the draws.
+        Seed of the draws, at least 0.
     radius : float
         Of the circle [m], (0, 0.049].
     device : Device, optional
@@ -147,10 +147,12 @@ def error_budget(
         raise ValueError(
             f"radius = {radius} m: must lie in (0, 0.049] m, the reach of +-30 deg on 100 mm"
         )
-    sizes, stick = (
-        sources or ErrorSources(),
-        presets.device("joystick") if device is None else device,
-    )
+    if whole("seed", seed) < 0:
+        raise ValueError(f"seed = {seed}: must be at least 0")
+    sizes = ErrorSources() if sources is None else sources
+    stick = presets.device("joystick") if device is None else device
+    require(sizes, ErrorSources, "ebac.tracking.error_budget", "ErrorSources as its sources")
+    require(stick, Device, "ebac.tracking.error_budget", "a Device")
     parts = {**{name: sizes.only(name) for name in GROUPS}, "all": sizes}
     rows: list[BudgetRow] = []
     examples: dict[str, Values] = {}

@@ -95,7 +95,7 @@ def checked(points: ArrayLike, least: int, what: str) -> Values:
         raise ValueError("points: some are masked, which a fit does not know; leave them out")
     try:
         array: Any = np.array(points, float)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         raise ValueError(
             f"points: must be numbers of the shape (n, 2) or (n, 3), for {what}"
         ) from None

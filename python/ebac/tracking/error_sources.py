@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from ebac._core import Device, Gimbal
-from ebac._util.arguments import number, unknown_name
+from ebac._util.arguments import named, number
 from ebac._util.arrays import Values
 from ebac._util.wrong_calls import plain_constructor
 
@@ -82,9 +82,8 @@ class ErrorSources:
 
     def only(self, group: str) -> ErrorSources:
         """Return one of the groups "encoder", "installation", "cable slack" without the others."""
-        if group not in GROUPS:
-            raise unknown_name("error source", group, GROUPS)
-        kept = {name: getattr(self, name) if name in GROUPS[group] else 0.0 for name in _RANGES}
+        mine = named("error source", group, GROUPS)
+        kept = {name: getattr(self, name) if name in mine else 0.0 for name in _RANGES}
         return ErrorSources(encoder=self.encoder and group == "encoder", **kept)
 
     def replace(self, **changes: Any) -> ErrorSources:

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from ebac._util.arguments import unknown
+from ebac._util.arguments import require, unknown
 from ebac.tracking.circle import CircleFit, fit_circle
 from ebac.tracking.line import LineFit, fit_line
 from ebac.tracking.read import RecordedPath
@@ -118,6 +118,7 @@ def evaluate(path: RecordedPath, *, shape: str = "auto", robust: bool = False) -
     ValueError
         When the path cannot be fitted; with the name of its file.
     """
+    require(path, RecordedPath, "ebac.tracking.evaluate", "a RecordedPath")
     if shape not in SHAPES:
         raise ValueError(unknown(f"shape = {shape!r}", shape, SHAPES))
     try:

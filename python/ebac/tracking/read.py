@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
-from ebac._util.arguments import unknown
+from ebac._util.arguments import require_file, several, unknown
 from ebac._util.arrays import Values
 from ebac._util.headings import FACTORS, split_heading
 from ebac._util.wrong_calls import plain_constructor
@@ -72,6 +72,8 @@ def read_path(
     ------
     FileNotFoundError
         When there is no such file.
+    IsADirectoryError
+        When it is a folder.
     ValueError
         When the file, a column or a number cannot be read; with the name of the file.
 
@@ -80,11 +82,12 @@ def read_path(
     UserWarning
         When the last line of a CSV file has no end, and so its last number may be cut.
     """
+    require_file(file, "ebac.tracking.read_path")
     path = Path(file)
-    if unit is not None and unit not in UNITS:
+    if unit is not None and str(unit) not in UNITS:
         raise ValueError(unknown(f"unit = {unit!r}", unit, UNITS))
-    if columns is not None and len(columns) not in (2, 3):
-        raise ValueError(f"columns = {','.join(columns)}: must be two or three, like x,y")
+    if columns is not None and len(several("columns", columns)) not in (2, 3):
+        raise ValueError(f"columns = {','.join(map(str, columns))}: must be two or three, like x,y")
     try:
         if path.suffix == ".npz":
             return _from_trace(path, columns, unit)

@@ -86,7 +86,7 @@ def stability_map(
 
 
 def _axis(name: str) -> MapAxis:
-    if not isinstance(name, str) or name not in AXES:
+    if str(name) not in AXES:
         raise ValueError(unknown(f"map axis {name}", name, list(AXES)))
     return AXES[name]
 
