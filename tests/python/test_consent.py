@@ -19,8 +19,8 @@ from ebac import Hand, MinimumJerk, Scenario, logs
 from ebac.cli import app
 from ebac.cli.drive.options import sure
 from ebac.cli.gastroscopy.drives import _notifier
+from ebac.cli.gastroscopy.line_printer import LinePrinter
 from ebac.cli.gastroscopy.side_table import show
-from ebac.cli.gastroscopy.teller import Teller
 from ebac.cli.run.confirm import can_ask
 from ebac.cli.teleop.consent import Consent
 from ebac.gastroscope.far_side import LinkEvent
@@ -73,8 +73,8 @@ def test_without_a_standard_input_nobody_consents_and_that_is_shown(
     monkeypatch: pytest.MonkeyPatch, keyboard: int
 ) -> None:
     heard: list[str] = []
-    teller: Any = SimpleNamespace(say=heard.append)
-    notify = _notifier("master", teller, consent := Consent())
+    printer: Any = SimpleNamespace(say=heard.append)
+    notify = _notifier("master", printer, consent := Consent())
     back = LinkEvent(t=1.0, what="back", text="the link is back")
     notify(back)
     assert "press Enter to go on" in heard[-1]
@@ -102,11 +102,11 @@ def test_a_stopped_terminal_holds_up_nobody() -> None:
     """A pipe that nobody reads takes 64 kB; more is said later, and who says it goes on."""
     end, full = os.pipe()
     with os.fdopen(full, "w") as terminal:
-        teller = Teller(terminal)
+        printer = LinePrinter(terminal)
         began = time.monotonic()
         for _ in range(3):
-            teller.say("x" * 100_000)
-        teller.close()
+            printer.say("x" * 100_000)
+        printer.close()
         assert time.monotonic() - began < 30  # it would wait for ever
         heard = 0
         while heard < 300_003:

@@ -29,17 +29,9 @@ def run(repeats: int, *, as_json: bool) -> None:
         rows = Background(compare).result()
     if as_json:
         typer.echo(output.document("bench", [row.row() for row in rows]))
-    else:
-        _show(rows)
-
-
-def _show(rows: list[PeerRow]) -> None:
-    table.show(rows, _quantity, digits=2)
-    output.say("What each program does:", style="bold")
-    output.indented("\n".join({f"{row.program}: {row.note}": None for row in rows}))
-    output.say(
-        "The quickest of several runs of each, answers of one run, all in this one run of the command."
-    )
+        return
+    how = "The quickest of several runs of each, answers of one run, all in this one run of the command."
+    table.show_with_notes(rows, _quantity, how, digits=2)
 
 
 def _quantity(row: PeerRow) -> str:

@@ -23,3 +23,13 @@ def show(rows: Sequence[PeerRow], quantity: Callable[[PeerRow], str], *, digits:
         grid.add_row(subject, row.program, quantity(row), times, row.target)
         last = row.subject
     output.show(grid)
+
+
+def show_with_notes(
+    rows: Sequence[PeerRow], quantity: Callable[[PeerRow], str], how: str, *, digits: int
+) -> None:
+    """Print the table, what each program does, and how it was timed."""
+    show(rows, quantity, digits=digits)
+    output.say("What each program does:", style="bold")
+    output.indented("\n".join({f"{row.program}: {row.note}": None for row in rows}))
+    output.say(how)

@@ -30,16 +30,10 @@ def run(repeats: int, chai3d: Path | None, *, as_json: bool) -> None:
     if as_json:
         typer.echo(output.document("bench", [row.row() for row in rows], missing=missing))
         return
-    _show(rows)
+    how = "The quickest of several runs of each, all in this one run of the command."
+    table.show_with_notes(rows, _quantity, how, digits=2)
     for sentence in missing:
         output.say(sentence)
-
-
-def _show(rows: list[PeerRow]) -> None:
-    table.show(rows, _quantity, digits=2)
-    output.say("What each program does:", style="bold")
-    output.indented("\n".join({f"{row.program}: {row.note}": None for row in rows}))
-    output.say("The quickest of several runs of each, all in this one run of the command.")
 
 
 def _quantity(row: PeerRow) -> str:

@@ -12,8 +12,8 @@ import typer
 
 from ebac.cli import by_name, interrupts, options, output, simulated
 from ebac.cli.drive.options import Yes, telling
+from ebac.cli.gastroscopy.line_printer import LinePrinter
 from ebac.cli.gastroscopy.side_table import show
-from ebac.cli.gastroscopy.teller import Teller
 from ebac.cli.run.confirm import can_ask, confirm
 from ebac.cli.teleop.consent import Consent
 from ebac.cli.teleop.processes import HOST, PORT, peer_of
@@ -96,7 +96,7 @@ def master(
     """
     from ebac.gastroscope.on_drives import run_master
 
-    with output.refusing(), telling(), Teller(err=as_json) as teller:
+    with output.refusing(), telling(), LinePrinter(err=as_json) as printer:
         if consent_after is not None and not on_simulated:
             output.fail(
                 f"--consent-after {consent_after:g}: only with --simulated; on your drives the hand agrees, by Enter"
@@ -121,7 +121,7 @@ def master(
             timeout=timeout,
             seconds=seconds,
             log=log,
-            notify=_notifier("master", teller, enter),
+            notify=_notifier("master", printer, enter),
             confirm=lambda device: confirm(device, yes, stderr=as_json),
             look=lambda run, link: _consent(link, enter),
         )
@@ -175,7 +175,7 @@ def slave(
     """
     from ebac.gastroscope.on_drives import run_slave
 
-    with output.refusing(), telling(), Teller(err=as_json) as teller:
+    with output.refusing(), telling(), LinePrinter(err=as_json) as printer:
         both = _known({"feed": feed, "bend": bend}, on_simulated)
         for known in both if not on_simulated else ():
             can_ask(known, yes)
@@ -189,9 +189,9 @@ def slave(
             timeout=timeout,
             seconds=seconds,
             log=log,
-            notify=_notifier("slave", teller),
+            notify=_notifier("slave", printer),
             confirm=lambda device: confirm(device, yes, stderr=as_json),
-            ready=lambda at: _ready(at, announce, None if as_json else teller),
+            ready=lambda at: _ready(at, announce, None if as_json else printer),
         )
     _give(found, as_json, on_simulated)
 
@@ -227,22 +227,22 @@ def _keep(log: Path | None) -> None:
         interrupts.keeping(f"look at the rows with `ebac log info {log}`")
 
 
-def _ready(port: int, announce: bool, teller: Teller | None) -> None:
+def _ready(port: int, announce: bool, printer: LinePrinter | None) -> None:
     if announce:
         typer.echo(json.dumps({"port": port}))
         sys.stdout.flush()
-    elif teller is not None:
-        teller.say(f"slave on UDP port {port}: the drives have power. Ctrl-C stops it.")
+    elif printer is not None:
+        printer.say(f"slave on UDP port {port}: the drives have power. Ctrl-C stops it.")
 
 
-def _notifier(name: str, teller: Teller, enter: Consent | None = None) -> Any:
+def _notifier(name: str, printer: LinePrinter, enter: Consent | None = None) -> Any:
     def notify(event: LinkEvent) -> None:
-        teller.say(f"{event.t:8.2f} s  {name}: {event.text}")
+        printer.say(f"{event.t:8.2f} s  {name}: {event.text}")
         if enter is None:
             return
         enter.withdraw()
         if event.what == "back":
-            teller.say(f"            {enter.question}")
+            printer.say(f"            {enter.question}")
             enter.ask()
 
     return notify

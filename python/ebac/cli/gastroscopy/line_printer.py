@@ -10,8 +10,10 @@ from typing import IO, Self
 import typer
 
 
-class Teller:
-    """Says lines in a thread of its own: a stopped terminal (Ctrl-S) or a full pipe holds up nobody. A context manager.
+class LinePrinter:
+    """Prints lines in a thread of its own: a stopped terminal (Ctrl-S) or a full pipe holds up nobody.
+
+    A context manager.
 
     Parameters
     ----------
@@ -21,22 +23,22 @@ class Teller:
         To standard error instead.
     """
 
-    #: How long its end waits for what is still to be said [s].
+    #: How long its end waits for what is still to be printed [s].
     LONGEST = 1.0
 
     def __init__(self, file: IO[str] | None = None, *, err: bool = False) -> None:
         self._lines: SimpleQueue[str | None] = SimpleQueue()
         self._thread = threading.Thread(
-            target=self._work, args=(file, err), name="ebac-teller", daemon=True
+            target=self._work, args=(file, err), name="ebac-line-printer", daemon=True
         )
         self._thread.start()
 
     def say(self, text: str) -> None:
-        """Say a line, soon."""
+        """Print a line, soon."""
         self._lines.put(text)
 
     def close(self) -> None:
-        """Wait until all is said, but no longer than a second."""
+        """Wait until all is printed, but no longer than a second."""
         self._lines.put(None)
         self._thread.join(self.LONGEST)
 
