@@ -518,6 +518,44 @@ def test_a_file_that_is_not_there_is_told_as_the_command_tells_it(
         load(folder)
 
 
+@pytest.mark.parametrize(
+    ("call", "message"),
+    [
+        (lambda: E.Operators.grid(mass=None), "Operators.grid: mass = None (NoneType): must be a"),
+        (
+            lambda: E.Operators.grid(stiffness=[100, float("nan")]),
+            "row 2: k_N_per_m = nan N/m: must",
+        ),
+        (lambda: E.Operators.grid(most_pull=None), "Operators.grid: most_pull = None: must be a"),
+        (lambda: identify.Target.following(0.1), "Target.path: shape (): must be (rows,)"),
+        (lambda: identify.Target.held().late("x"), "Target.late: seconds = 'x': must be a number"),
+        (lambda: E.gastroscope.Lumen().line(float("nan")), "Lumen.line: s = nan m: must be finite"),
+        (
+            lambda: W.HeightField([[0, 0], [0, 0.0]]).error(samples=0),
+            "HeightField.error: samples = 0: must be at least 1",
+        ),
+    ],
+)
+def test_numbers_that_would_give_nonsense_are_refused(
+    call: Callable[[], object], message: str
+) -> None:
+    with pytest.raises((TypeError, ValueError), match=re.escape(message)):
+        call()
+
+
+def test_results_are_asked_for_what_they_have() -> None:
+    hands, short = ebac.Operators.sample(1, 1), ebac.Scenario(seconds=0.3)
+    stiff = ebac.stiffest("direct", population=hands, stiffnesses=[1e3], base=short)
+    with pytest.raises(KeyError, match="no criterion is called 'good_in_tiem', did you mean"):
+        stiff.holds("good_in_tiem")
+    found = ebac.stability_map("direct", base=short, xs=[1.0, 2.0], ys=[1e3, 2e3])
+    with pytest.raises(ValueError, match="epsilon = nan J: must be at least 0"):
+        found.scores(float("nan"))
+    random: Any = ebac.random_worlds("direct", kinds=["planes"], devices=["2-axes"], hands=1)
+    with pytest.raises(TypeError, match=r"RandomWorlds\.trace takes one of its rows, not 3"):
+        random.trace(3)
+
+
 def test_what_is_right_is_taken() -> None:
     assert identify.Target.steps(0.5, 1).switches == (0.5, 1)
     assert len(ebac.Operators.sample(2, 1)) == 2

@@ -104,8 +104,16 @@ class Lumen:
             Shape (n, 3, 3): right, down and ahead of a camera there, as rows.
         radius : ndarray
             Shape (n,) [m].
+
+        Raises
+        ------
+        ValueError
+            For a place that is not finite.
         """
-        rows = [self.core.at(float(one), t) for one in np.atleast_1d(np.asarray(s, dtype=float))]
+        places = np.atleast_1d(np.asarray(s, dtype=float))
+        if not np.isfinite(places).all():
+            raise ValueError(f"Lumen.line: s = {s!r} m: must be finite")
+        rows = [self.core.at(float(one), t) for one in places]
         return (
             np.array([row[0] for row in rows]),
             np.array([row[1:4] for row in rows]),

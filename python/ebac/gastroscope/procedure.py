@@ -13,7 +13,14 @@ from numpy.typing import NDArray
 
 from ebac import _core
 from ebac._core import Device, Free, Hand, Master, Patient, Physician, Polyp, Scope, Step
-from ebac._util.arguments import number, require, require_each, require_parts, whole
+from ebac._util.arguments import (
+    number,
+    require,
+    require_each,
+    require_parts,
+    require_path,
+    whole,
+)
 from ebac._util.background import cancellable
 from ebac._util.plural import plural
 from ebac.gastroscope.lumen import Lumen
@@ -193,7 +200,7 @@ class Gastroscopy:
         ValueError
             For less.
         """
-        if every < 1:
+        if whole("every", every) < 1:
             raise ValueError(f"every = {every}: must be 1 or more")
         count = len(self.rows["t"])
         kept = np.unique(np.append(np.arange(0, count, every), count - 1))
@@ -225,6 +232,7 @@ class Gastroscopy:
         """
         from ebac.gastroscope.log import write_log
 
+        require_path(path, "Gastroscopy.save")
         path = Path(path)
         if path.suffix.lower() == ".mcap":
             write_log(self, path)

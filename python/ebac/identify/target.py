@@ -52,6 +52,8 @@ class Target:
         for before, at in pairwise((-np.inf, *self.switches)):
             if not before < at < np.inf:
                 raise ValueError(f"Target.switches = {self.switches} s: must be finite and rise")
+        if self.path is not None and self.path.ndim != 1:
+            raise ValueError(f"Target.path: shape {self.path.shape}: must be (rows,)")
         if self.path is not None and not np.isfinite(self.path).all():
             row = int(np.argmin(np.isfinite(self.path)))
             raise ValueError(f"Target.path: is no number in row {row} (counted from 0)")
@@ -63,6 +65,7 @@ class Target:
 
     def late(self, seconds: float) -> Target:
         """Return the target with every switch delayed by some time [s]."""
+        number("Target.late: seconds", seconds)
         return replace(self, switches=tuple(at + seconds for at in self.switches))
 
     def cut(self, recording: Recording, part: slice) -> tuple[Target, tuple[int, ...]]:

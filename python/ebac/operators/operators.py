@@ -13,7 +13,15 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ebac._core import Hand, Step, Wall
-from ebac._util.arguments import number, require, require_file, require_path, unknown, whole
+from ebac._util.arguments import (
+    number,
+    require,
+    require_file,
+    require_path,
+    several_numbers,
+    unknown,
+    whole,
+)
 from ebac._util.atomic_file import draft
 from ebac._util.need import need
 from ebac._util.wrong_calls import plain_constructor
@@ -116,8 +124,20 @@ class Operators:
             Largest K0 X0 [N].
         **columns
             The same for all: `approach_m`, `tremor_m`, `tremor_Hz`.
+
+        Raises
+        ------
+        ValueError
+            For a number out of range, or when no combination is left.
+        TypeError
+            For what is no sequence of numbers.
         """
-        every = itertools.product(mass, damping, stiffness, target)
+        number("Operators.grid: most_pull", most_pull)
+        given = (("mass", mass), ("damping", damping), ("stiffness", stiffness), ("target", target))
+        axes = [several_numbers(f"Operators.grid: {name}", values) for name, values in given]
+        for column, values in zip(OPERATOR_COLUMNS.values(), axes, strict=False):
+            check(column, np.array(values))
+        every = itertools.product(*axes)
         rows = [row for row in every if row[2] * row[3] <= most_pull]
         if not rows:
             raise ValueError(f"no combination pulls with at most most_pull = {most_pull:g} N")

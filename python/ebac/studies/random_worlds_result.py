@@ -8,6 +8,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from ebac._util.arguments import require
 from ebac.laws import AnyLaw, design
 from ebac.laws.tuned_laws import on_its_observer
 from ebac.scenario import Scenario
@@ -141,6 +142,7 @@ class RandomWorlds:
         hand : int, optional
             Its index, at least 0; default: the worst of the row.
         """
+        require(row, RandomWorldRow, "RandomWorlds.scenario", "one of its rows")
         return random_scenario(
             row.kind,
             row.device,
@@ -155,6 +157,7 @@ class RandomWorlds:
 
     def trace(self, row: RandomWorldRow, hand: int | None = None) -> Trace:
         """Simulate a hand of a row again, by default its worst, with every row up to a fault."""
+        require(row, RandomWorldRow, "RandomWorlds.trace", "one of its rows")
         law = self.laws[row.law]
         scenario = on_its_observer(self.scenario(row, hand), law)
         return every_row(scenario, design(law, scenario.device, scenario.known_timing))

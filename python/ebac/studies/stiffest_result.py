@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ebac._util import row_files
-from ebac._util.arguments import require_path
+from ebac._util.arguments import named, require_path
 from ebac.scenario import Scenario
 from ebac.studies.result import Study
 
@@ -113,7 +113,14 @@ class Stiffest:
         return None if in_time is None else self.counts["good"] - in_time
 
     def holds(self, criterion: str) -> NDArray[np.bool_]:
-        """Return where enough hands meet one of `CRITERIA`, shape (laws, walls); False where it is not known."""
+        """Return where enough hands meet one of `CRITERIA`, shape (laws, walls); False where it is not known.
+
+        Raises
+        ------
+        KeyError
+            For a criterion that does not exist.
+        """
+        named("criterion", criterion, CRITERIA)
         if criterion not in self.counts:
             return np.zeros((len(self.study.laws), len(self.stiffnesses)), bool)
         return np.asarray(self.counts[criterion] >= self.needed)

@@ -110,7 +110,9 @@ class Worst:
 
     def trace(self, hand: WorstHand | None = None) -> Trace:
         """Simulate a hand again, by default the worst, with every row."""
-        return every_row((hand or self.hands[0]).scenario, self.made)
+        chosen = self.hands[0] if hand is None else hand
+        require(chosen, WorstHand, "Worst.trace", "one of its hands")
+        return every_row(chosen.scenario, self.made)
 
 
 def worst(

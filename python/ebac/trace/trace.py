@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ebac import _core
-from ebac._util.arguments import require_path, unknown_name, whole
+from ebac._util.arguments import require_file, require_path, unknown_name, whole
 from ebac._util.atomic_file import draft
 from ebac._util.need import need
 from ebac._util.plural import plural
@@ -347,6 +347,7 @@ class Trace:
         """
         from ebac.trace.files import npz_parts
 
+        require_file(path, "Trace.from_npz")
         return cls(**npz_parts(path))
 
     def plot(self, *columns: str | Sequence[str]) -> Figure:

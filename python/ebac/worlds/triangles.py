@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ebac._util import formatting
-from ebac._util.arguments import number
+from ebac._util.arguments import number, whole
 from ebac._util.progress import Progress
 from ebac.worlds.grid import Grid, Surface, cached_grid
 from ebac.worlds.part import Part
@@ -95,10 +95,20 @@ class Triangles(Part):
         Parameters
         ----------
         samples : int
-            Points at random on the surface, moved off it by a cell at most.
+            Points at random on the surface, moved off it by a cell at most; at least 1.
         seed : int
-            Seed.
+            Seed, at least 0.
+
+        Raises
+        ------
+        ValueError
+            For a number out of its range.
         """
+        for name, value, least in (("samples", samples, 1), ("seed", seed, 0)):
+            if whole(f"{type(self).__name__}.error: {name}", value) < least:
+                raise ValueError(
+                    f"{type(self).__name__}.error: {name} = {value}: must be at least {least}"
+                )
         surface, grid = self.surface(), self.grid()
         random = np.random.default_rng(seed)
         corners = surface.vertices[surface.faces]

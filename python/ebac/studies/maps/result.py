@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ebac._util.arguments import require_path
+from ebac._util.arguments import number, require_path
 from ebac._util.arrays import Values
 from ebac._util.atomic_file import draft
 from ebac.scenario import Scenario
@@ -100,8 +100,15 @@ class StabilityMap:
         Parameters
         ----------
         epsilon : float
-            Energy [J] that a hand may draw.
+            Energy [J] that a hand may draw, at least 0.
+
+        Raises
+        ------
+        ValueError
+            For less.
         """
+        if not number("epsilon", epsilon) >= 0:
+            raise ValueError(f"epsilon = {epsilon} J: must be at least 0")
         energy = (self["least_energy_J"] >= -epsilon) & ~self._lost
         return {
             "quiet_share": float(self.quiet.mean()),
