@@ -16,7 +16,7 @@ from ebac.identify import Recording, Target, excitation, fit_arm, fit_device, lo
 from ebac.identify.beside_scipy import compare_with_scipy
 from ebac.identify.cases import Case, draw
 from ebac.identify.check import Check, run_case
-from ebac.identify.recording import count_of
+from ebac.identify.quantisation import count_of
 from ebac.identify.unbiased import second_opinion
 from ebac.identify.validation import TooFewReadings
 

@@ -20,9 +20,11 @@ from ebac.identify.load_options import refuse_unused, words_by_signal
 from ebac.identify.missing import not_found
 from ebac.identify.of_trace import path_of, signals_of, trace_facts, where_met
 from ebac.identify.plausible import plausible
-from ebac.identify.recording import LEAST_ROWS, Recording, count_of, not_rising
+from ebac.identify.quantisation import count_of
+from ebac.identify.recording import LEAST_ROWS, Recording
 from ebac.identify.rotary import Conversion, in_si
 from ebac.identify.rows import on_rows
+from ebac.identify.times import not_rising
 from ebac.trace import Trace
 
 #: A rate that is asked for differs from that of the column of time, if by more than this share.

@@ -14,6 +14,8 @@ from ebac._util.arguments import number, require, shown, unknown
 from ebac._util.plural import plural
 from ebac._util.wrong_calls import plain_constructor
 from ebac.identify.of_trace import signals_of, trace_facts
+from ebac.identify.quantisation import count_of
+from ebac.identify.times import not_rising
 from ebac.trace.time_slice import rows_between
 
 if TYPE_CHECKING:
@@ -24,19 +26,6 @@ if TYPE_CHECKING:
 LEAST_ROWS = 50
 #: A longer step between two rows is a pause [rows].
 PAUSE = 1.5
-
-
-def not_rising(step: NDArray[np.float64], first: int) -> str:
-    """Return where times do not rise, from the steps between them, and the remedy; rows are counted from `first`."""
-    row = int(np.argmin(step > 0)) + 1 + first
-    if (step >= 0).all():
-        same = int((step == 0).sum())
-        rows = f"in {same} rows, first in row {row}" if same > 1 else f"in row {row}"
-        return (
-            f"t is that of the row before {rows}; give the rows a second (rate=, --rate), times with more digits, or "
-            "leave out what was written twice"
-        )
-    return f"t goes back in row {row}; sort the log by time"
 
 
 @plain_constructor
@@ -298,24 +287,3 @@ def _numbers(name: str, values: Any) -> NDArray[Any]:
     if array.dtype.kind not in "fiub":
         raise TypeError(f"{name} = {shown(values)}: must be an array of numbers")
     return array if array.dtype.kind == "b" else array.astype(float, copy=False)
-
-
-def count_of(x: NDArray[np.float64]) -> float:
-    """Return the step of a quantised signal, or 0 when it has none.
-
-    The least difference that most differences are whole multiples of.
-    """
-    steps = np.abs(np.diff(x))
-    span = float(np.ptp(x))
-    steps = steps[steps > 1e-9 * span]
-    if steps.size < 5:
-        return 0.0
-    least = float(steps.min())
-    for _ in range(3):  # a refined mean over the multiples
-        whole = np.round(steps / least)
-        near = np.abs(steps / least - whole) < 0.1
-        if near.mean() < 0.95 or whole.max() > 1e7:
-            return 0.0
-        least = float(np.sum(steps[near]) / np.sum(whole[near]))
-    share = np.unique(np.round((x - x.min()) / least)).size
-    return least if share < 0.9 * x.size else 0.0

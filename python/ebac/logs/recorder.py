@@ -16,13 +16,13 @@ from types import TracebackType
 from typing import TYPE_CHECKING, Any, Self
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ebac._util.plural import plural
 from ebac._util.wrong_calls import plain_constructor
 from ebac.logs.about import About
-from ebac.logs.events import Event, faults_of
+from ebac.logs.events import Event
 from ebac.logs.layout import Layout
+from ebac.logs.new_rows import NewRows
 from ebac.logs.writer import LogWriter
 from ebac.scenario import Scenario
 from ebac.trace.columns import column_infos, row_views
@@ -32,8 +32,6 @@ if TYPE_CHECKING:
 
 #: Time between two chunks [s]. Rows of at most this and of what the system lets the thread wait are lost by a kill.
 INTERVAL = 0.02
-#: Rows of one chunk at most: more wait for the next, so that a late recorder catches up in steps.
-MOST_ROWS = 16_384
 
 
 @plain_constructor
@@ -112,7 +110,6 @@ class Recorder:
         _check("interval", interval, 1e-3, 10)
         if sync is not None:
             _check("sync", sync, 0.1, 3600)
-        self._rows = rows
         self._interval = interval
         self._watch = watch or _nothing
         about = About(
@@ -126,8 +123,7 @@ class Recorder:
         none = row_views(rows, np.empty(0, np.uint8))
         layout = Layout.of(none, column_infos(rows))
         self._writer = LogWriter(path, layout=layout, about=about, file=file)
-        self._seen = first
-        self._last: tuple[int, float, int] = (-1, 0.0, 0)  # tick, t, fault of the last row
+        self._new = NewRows(rows, first)
         self._waiting: list[Event] = []
         self._lock = threading.Lock()
         self._ends = threading.Event()
@@ -174,21 +170,11 @@ class Recorder:
         values = {name: _plain(name, value) for name, value in values.items()}
         if self._ends.is_set():
             raise ValueError(f"{self.path}: the recorder is closed; note events while it runs")
-        at, t, _ = self._last
+        at, t, _ = self._new.last
         if tick is not None:
-            at, t = tick, self._time_of(tick)
+            at, t = tick, self._new.time_of(tick)
         with self._lock:
             self._waiting.append(Event(kind=kind, message=message, tick=at, t=t, values=values))
-
-    def _time_of(self, tick: int) -> float:
-        """Return the time of a tick [s]: that of its row, or of the nearest one in memory."""
-        seen, (last, t, _) = self._seen, self._last
-        earliest = max(self._rows.first, seen - 1 - max(0, last - tick))
-        _, raw = self._rows.copy(earliest, seen)
-        rows = row_views(self._rows, raw)
-        if not len(rows["t"]):
-            return t
-        return float(rows["t"][int(np.abs(rows["tick"] - tick).argmin())])
 
     def close(self) -> None:
         """Write what is left and the summary, and close the file.
@@ -260,32 +246,14 @@ class Recorder:
         with self._lock:
             happened, self._waiting = self._waiting, []
         happened += self._watch()
-        start, count = max(self._seen, self._rows.first), self._rows.count
-        stop = min(count, start + MOST_ROWS)
-        first, raw = self._rows.copy(start, stop)
-        if not len(raw) and first == self._seen and not happened:
+        chunk = self._new.next()
+        if not (len(chunk) or chunk.lost or happened):
             return False
-        data = row_views(self._rows, raw)
-        if first > self._seen:
-            happened.append(self._lose(first - self._seen, data))
-        happened += faults_of(data, self._last[2])
-        self._writer.write(data, happened)
-        self._seen = stop
-        self.written += len(data["t"])
-        if len(data["t"]):
-            self._last = int(data["tick"][-1]), float(data["t"][-1]), int(data["fault"][-1])
-        return stop < count
-
-    def _lose(self, rows: int, data: Mapping[str, NDArray[Any]]) -> Event:
-        self.lost += rows
-        tick, t, _ = self._last
-        if len(data["t"]):
-            tick, t = int(data["tick"][0]), float(data["t"][0])
-        were, they = ("was", "it was") if rows == 1 else ("were", "they were")
-        message = (
-            f"{plural(rows, 'row')} before tick {tick} {were} written over before {they} recorded"
-        )
-        return Event(kind="lost", message=message, tick=tick, t=t, values={"rows": rows})
+        self.lost += chunk.lost
+        self._writer.write(chunk.data, happened + chunk.events)
+        self._new.done(chunk)
+        self.written += len(chunk)
+        return chunk.more
 
     def _at_exit(self) -> None:
         with contextlib.suppress(OSError):  # the interpreter ends: nobody is left to read it
