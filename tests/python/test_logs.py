@@ -756,3 +756,35 @@ def test_a_recorder_whose_end_was_interrupted_can_be_ended(tmp_path: Path) -> No
     log = read(tmp_path / "run.mcap")
     assert len(log.trace) == recorder.written > 0
     assert log.condition.complete
+
+
+def test_an_event_of_a_tick_that_a_ring_has_lost_has_the_last_time_that_was_read(
+    tmp_path: Path,
+) -> None:
+    """It raised an `IndexError` of the rows."""
+    ring = SOURCE.empty_like(10, True)
+    with Recorder(ring, tmp_path / "run.mcap", interval=10.0) as recorder:
+        for row in range(20):
+            ring.append(SOURCE.copy(row, row + 1)[1])
+        recorder._take_all()
+        for row in range(20, 60):
+            ring.append(SOURCE.copy(row, row + 1)[1])
+        recorder.event("note", "late", tick=15)
+        with pytest.warns(UserWarning, match="40 rows were lost"):
+            recorder.close()
+    event = next(e for e in read(tmp_path / "run.mcap").events if e.kind == "note")
+    assert (event.tick, event.t) == (15, pytest.approx(0.019))
+
+
+def test_an_event_of_a_recorder_that_is_closed_meanwhile_is_refused(tmp_path: Path) -> None:
+    """It was taken and never written."""
+    recorder = Recorder(rows_of(), tmp_path / "run.mcap", interval=10.0)
+    time_of = recorder._new.time_of
+
+    def closed(tick: int) -> float:  # as another thread does
+        recorder.close()
+        return time_of(tick)
+
+    recorder._new.time_of = closed  # type: ignore[method-assign]
+    with pytest.raises(ValueError, match="the recorder is closed"):
+        recorder.event("note", "too late", tick=3)

@@ -81,7 +81,8 @@ class NewRows:
     def time_of(self, tick: int) -> float:
         """Return the time of a tick that was read [s]: that of its row, or of the nearest one in memory."""
         seen, last = self._seen, self.last
-        earliest = max(self._rows.first, seen - 1 - max(0, last.tick - tick))
+        wanted = seen - 1 - max(0, last.tick - tick)
+        earliest = min(max(self._rows.first, wanted), seen)  # a ring may have passed all of them
         _, raw = self._rows.copy(earliest, seen)
         rows = row_views(self._rows, raw)
         if not len(rows["t"]):

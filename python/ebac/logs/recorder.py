@@ -168,12 +168,12 @@ class Recorder:
             For a value that JSON has not.
         """
         values = {name: _plain(name, value) for name, value in values.items()}
-        if self._ends.is_set():
-            raise ValueError(f"{self.path}: the recorder is closed; note events while it runs")
         at, t, _ = self._new.last
         if tick is not None:
             at, t = tick, self._new.time_of(tick)
         with self._lock:
+            if self._ends.is_set():
+                raise ValueError(f"{self.path}: the recorder is closed; note events while it runs")
             self._waiting.append(Event(kind=kind, message=message, tick=at, t=t, values=values))
 
     def close(self) -> None:
@@ -191,7 +191,8 @@ class Recorder:
         """
         if self._closed:
             return
-        self._ends.set()
+        with self._lock:  # what was noted before is written, what comes later is refused
+            self._ends.set()
         for thread in self._threads:
             thread.join()
         self._take_all()
