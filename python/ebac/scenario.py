@@ -5,40 +5,29 @@ from __future__ import annotations
 import dataclasses
 import warnings
 from dataclasses import dataclass, field
-from math import cos
 from pathlib import Path
-from typing import Any, Final, Literal, Self, TypeAlias
+from typing import Any, Literal, Self, TypeAlias
 
-from ebac._core import (
-    Corner,
-    Device,
-    Disc,
-    Free,
-    Hand,
-    Observer,
-    Setup,
-    Step,
-    Timing,
-    Wall,
-    _World,
-)
-from ebac._util.arguments import (
-    did_you_mean,
-    keywords_only,
-    refuse_unknown,
-    require,
-    require_file,
-    require_path,
-    shown,
-)
+from ebac._core import Corner, Device, Disc, Free, Hand, Observer, Setup, Timing, Wall, _World
+from ebac._util.arguments import keywords_only, refuse_unknown, require, require_file, require_path
 from ebac._util.atomic_file import write_text
 from ebac._util.copying import refuse_uncopyable
 from ebac._util.misplaced import Misplaced, misplaced
-from ebac._util.plural import plural
-from ebac._util.serialisation import SHAPES
 from ebac._util.text_file import read_text
 from ebac._util.toml_lines import placed
 from ebac.hands import as_hand, is_own
+from ebac.scenario_checks import EVERY_LAW as EVERY_LAW
+from ebac.scenario_checks import LEARNS_SCALE as LEARNS_SCALE
+from ebac.scenario_checks import (
+    NAMED_OBSERVERS,
+    NUMBERS,
+    PARTS,
+    as_environment,
+    check_axes,
+    check_ranges,
+    check_types,
+    part_of,
+)
 from ebac.scenario_text import parts_of, text_of
 
 __all__ = [
@@ -53,40 +42,8 @@ def __dir__() -> list[str]:
 
 Environment: TypeAlias = Free | Wall | Corner | Disc | _World
 
-#: The observer that every law acts on.
-EVERY_LAW: Final = "every-law"
-LEARNS_SCALE: Final = "learns-scale"
-#: What a name changes of the observer that is designed from device and timing.
-_NAMED_OBSERVERS: Final = {EVERY_LAW: {"every_law": True}, LEARNS_SCALE: {"learn_scale": True}}
-_NAMES: Final = " or ".join(map(repr, _NAMED_OBSERVERS))
-#: What its numbers are.
-_NUMBERS = {"seconds": "a number in s", "jitter": "a number", "seed": "a whole number"}
-_PARTS = ("device", "hand", "environment", "timing", "seconds", "jitter", "seed", "observer")
 
-
-def as_environment(given: Any) -> Any:
-    """Return the world of a solid or body of `ebac.worlds`, and anything else as it is."""
-    if not type(given).__module__.startswith("ebac.worlds") and not isinstance(given, SHAPES):
-        return given
-    from ebac.worlds import World
-
-    return given if isinstance(given, _World) else World(given)
-
-
-def _part_of(name: str) -> str:
-    """Return where a parameter belongs that people look for in a scenario."""
-    if name == "law":
-        return "a law is an argument of ebac.simulate"
-    owners = [("environment", kind) for kind in (Wall, Free, Corner, Disc)]
-    for part, kind in (("timing", Timing), ("hand", Hand), ("device", Device), *owners):
-        if name.lower() == kind.__name__.lower():
-            return f"give {part}=ebac.{kind.__name__}(...)"
-        if name in kind().as_dict():
-            return f"it belongs to {kind.__name__}, {part}=ebac.{kind.__name__}({name}=...)"
-    return ""
-
-
-@keywords_only(_PARTS, _part_of)
+@keywords_only(PARTS, part_of)
 @dataclass(frozen=True, kw_only=True)
 class Scenario:
     """Device, hand, virtual world and time of a simulated run. The same scenario gives the same bits.
@@ -137,65 +94,12 @@ class Scenario:
         """Check types and ranges."""
         object.__setattr__(self, "hand", as_hand(self.hand))
         object.__setattr__(self, "environment", as_environment(self.environment))
-        for name in (*_NUMBERS, "observer"):
+        for name in (*NUMBERS, "observer"):
             value = getattr(self, name)  # of NumPy, which is not loaded for it
             if getattr(value, "ndim", None) == 0:
                 object.__setattr__(self, name, value.item())
-        parts: dict[str, tuple[type, ...]] = {
-            "device": (Device,),
-            "hand": (Hand,),
-            "environment": (Free, Wall, Corner, Disc, _World),
-            "timing": (Timing,),
-            "seconds": (float, int),
-            "jitter": (float, int),
-            "seed": (int,),
-            "observer": (Observer, bool, str),
-        }
-        for name, types in parts.items():
-            value = getattr(self, name)
-            if not isinstance(value, types) or (isinstance(value, bool) and bool not in types):
-                names = _NUMBERS.get(name) or " or ".join(
-                    _NAMES if t is str else t.__name__.lstrip("_") for t in types
-                )
-                given = shown(value) if isinstance(value, type) else repr(value)
-                raise TypeError(f"Scenario.{name} = {given}: must be {names}")
-        if isinstance(self.observer, str) and self.observer not in _NAMED_OBSERVERS:
-            raise ValueError(
-                f"Scenario.observer = {self.observer!r}: must be True, False, {_NAMES}, or an Observer"
-                f"{did_you_mean(self.observer, _NAMED_OBSERVERS)}"
-            )
-        if not isinstance(self.observer, bool) and not self.device.sensor.fitted:
-            raise ValueError(
-                "Scenario.observer: estimates the state from a measured force, but the device has no force sensor; "
-                "leave the observer out, or give the device one"
-            )
-        if not 0 < self.seconds <= 1e5:
-            raise ValueError(f"Scenario.seconds = {self.seconds} s: must lie in (0, 100000] s")
-        if not 0 <= self.jitter <= 0.45:
-            raise ValueError(f"Scenario.jitter = {self.jitter}: must lie in [0, 0.45] of a sample")
-        if not 0 <= self.seed < 2**63:
-            raise ValueError(f"Scenario.seed = {self.seed}: must lie in [0, 2^63)")
-        if self.seconds < self.timing.dt:
-            raise ValueError(
-                f"Scenario.seconds = {self.seconds} s: must be at least one sample, {self.timing.dt} s"
-            )
-
-    def _check_axes(self) -> None:
-        """Refuse an environment or path on axes the device does not have."""
-        axes = self.device.axes
-        world = self.environment
-        across = isinstance(world, Wall) and abs(cos(world.angle)) < 1e-3
-        if axes < 2 and (across or isinstance(world, (Corner, Disc))):
-            raise ValueError(
-                f"Scenario.environment = {world!r}: needs 2 axes, the device has {axes}; "
-                "give a device with Linear(axes=2) or Gimbal(), or a Wall across the first axis"
-            )
-        for axis, path in enumerate(self.hand.path[axes:], start=axes):
-            if path != Step(target=0):
-                raise ValueError(
-                    f"Scenario.hand.path[{axis}] = {path!r}: the device has {plural(axes, 'axis', 'axes')}; "
-                    "give it one path for each, or a device with more"
-                )
+        check_types(self)
+        check_ranges(self)
 
     @property
     def known_timing(self) -> Timing:
@@ -206,7 +110,7 @@ class Scenario:
 
     def replace(self, **changes: Any) -> Self:
         """Return a copy with some parts changed."""
-        refuse_unknown("Scenario", changes, _PARTS, _part_of)
+        refuse_unknown("Scenario", changes, PARTS, part_of)
         return dataclasses.replace(self, **changes)
 
     def to_toml(self, *, folder: str | Path | None = None) -> str:
@@ -291,7 +195,7 @@ class Scenario:
             return None
         designed = Observer.of(self.device, self.timing)
         if isinstance(self.observer, str):
-            return designed.replace(**_NAMED_OBSERVERS[self.observer])
+            return designed.replace(**NAMED_OBSERVERS[self.observer])
         return designed
 
     def setup(self) -> Setup:
@@ -304,7 +208,7 @@ class Scenario:
         TypeError
             When a hand in Python cannot be copied.
         """
-        self._check_axes()
+        check_axes(self)
         if is_own(self.hand.model):
             refuse_uncopyable(self.hand.model, "hand")
         return Setup(

@@ -224,6 +224,7 @@ ROOMS = [
         "operators",
         "worlds",
         "scenario_text",
+        "scenario_checks",
         "scenario",
         "trace",
         "simulation",

@@ -46,7 +46,7 @@ def _scenario(given: dict[str, Any], seconds: float | None) -> Scenario:
 
 
 def _observer(given: dict[str, Any], device: Device) -> Any:
-    from ebac.scenario import EVERY_LAW, LEARNS_SCALE
+    from ebac.scenario_checks import EVERY_LAW, LEARNS_SCALE
 
     observer = given.get("observer")
     names = {EVERY_LAW: "--observer-every-law", LEARNS_SCALE: "--observer-learns"}

@@ -6,6 +6,7 @@ from typing import Any
 
 from ebac.live.choices import Choices
 from ebac.live.session_files import SessionFiles
+from ebac.scenario_checks import check_axes
 
 #: Changes of these act in the running loop; all others restart it.
 WHILE_IT_RUNS = ("law", "world", "stiffness", "damping", "delay")
@@ -75,7 +76,7 @@ class SessionChanges(SessionFiles):
         changed = bool(set(names) & {"world", "stiffness", "damping"})
         if changed:
             self._check_world(world, another="world" in names)
-        self._chosen().scenario()._check_axes()
+        check_axes(self._chosen().scenario())
         if live:
             run = self.run
             if run is None or run.done:

@@ -7,7 +7,8 @@ from typing import Any
 
 from ebac._core import BackwardDifference, Linear, Observer, Step, Wall
 from ebac._util import serialisation
-from ebac.scenario import EVERY_LAW, LEARNS_SCALE, Scenario
+from ebac.scenario import Scenario
+from ebac.scenario_checks import EVERY_LAW, LEARNS_SCALE
 
 #: Parts whose numbers are settings, by the names of a scenario's TOML file.
 _PARTS = ("device", "hand", "environment", "timing")
