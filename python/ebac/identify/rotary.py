@@ -14,7 +14,8 @@ from ebac.identify.columns import QUANTITIES, name_and_unit, quantity_of
 if TYPE_CHECKING:
     from ebac.identify.files import Columns
 
-POSITIONS, FORCES = ("x", "target"), ("force", "motor", "desired")
+#: Signals that are forces or torques.
+FORCES = ("force", "motor", "desired")
 #: Of the same kind of device, in the order position, force; and their SI units.
 LINEAR, ROTARY = ("length", "force"), ("angle", "torque")
 SI = {"length": "m", "angle": "rad", "force": "N", "torque": "N m", "time": "s"}

@@ -14,13 +14,10 @@ from numpy.typing import ArrayLike, NDArray
 
 from ebac._core import Hand, Step, Wall
 from ebac._util.arguments import (
-    number,
     require,
     require_file,
     require_path,
-    several_numbers,
     unknown,
-    whole,
 )
 from ebac._util.atomic_file import draft
 from ebac._util.need import need
@@ -34,6 +31,7 @@ from ebac.operators.columns import (
     numbers,
     read_csv,
 )
+from ebac.operators.draws import combinations, random_rows
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -132,16 +130,8 @@ class Operators:
         TypeError
             For what is no sequence of numbers.
         """
-        number("Operators.grid: most_pull", most_pull)
-        given = (("mass", mass), ("damping", damping), ("stiffness", stiffness), ("target", target))
-        axes = [several_numbers(f"Operators.grid: {name}", values) for name, values in given]
-        for column, values in zip(OPERATOR_COLUMNS.values(), axes, strict=False):
-            check(column, np.array(values))
-        every = itertools.product(*axes)
-        rows = [row for row in every if row[2] * row[3] <= most_pull]
-        if not rows:
-            raise ValueError(f"no combination pulls with at most most_pull = {most_pull:g} N")
-        return cls._from_rows(np.array(rows), columns)
+        rows = combinations(mass, damping, stiffness, target, most_pull)
+        return cls._from_rows(rows, columns)
 
     @classmethod
     def sample(
@@ -162,21 +152,15 @@ class Operators:
             Largest K0 X0 [N], at least 0.5 N, the least that can be drawn.
         **columns
             The same for all: `approach_m`, `tremor_m`, `tremor_Hz`.
+
+        Raises
+        ------
+        ValueError
+            For a number out of range.
+        TypeError
+            For what is no number, or no whole one.
         """
-        n, seed = whole("Operators.sample: n", n), whole("Operators.sample: seed", seed)
-        most_pull = number("Operators.sample: most_pull", most_pull)
-        for name, value, least in (("n", n, 1), ("seed", seed, 0), ("most_pull", most_pull, 0.5)):
-            if not value >= least:
-                raise ValueError(f"Operators.sample: {name} = {value}: must be at least {least}")
-        draw = np.random.Generator(np.random.PCG64(seed))
-        low, high = np.array([[0.03, 1, 50, 0.010], [1.5, 25, 1200, 0.060]])
-        rows = np.empty((0, 4))
-        while len(rows) < n:
-            share = draw.random((n, 4))
-            drawn = low * (high / low) ** share
-            drawn[:, 3] = low[3] + (high[3] - low[3]) * share[:, 3]
-            rows = np.vstack([rows, drawn[drawn[:, 2] * drawn[:, 3] <= most_pull]])
-        return cls._from_rows(rows[:n], columns)
+        return cls._from_rows(random_rows(n, seed, most_pull), columns)
 
     @classmethod
     def _from_rows(cls, rows: NDArray[np.float64], columns: Mapping[str, Any]) -> Self:

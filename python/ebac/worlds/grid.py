@@ -79,11 +79,6 @@ class Grid:
         values = {one.name: getattr(self, one.name) for one in fields(self)}
         return _core._grid(**values)
 
-    @property
-    def size_bytes(self) -> int:
-        """Memory."""
-        return self.far.nbytes + self.index.nbytes + self.nodes.nbytes
-
 
 class Surface:
     """Triangles, asked for distance and direction by libigl.
