@@ -630,3 +630,19 @@ def test_a_frequency_response_is_of_finite_numbers(given: dict[str, Any], messag
         E.identify.fit_arm(recording, fixed=3)
     with pytest.raises(TypeError, match=re.escape("ask = None (NoneType): must be a sequence")):
         E.identify.check_log(recording, ask=None)
+
+
+@pytest.mark.parametrize(
+    ("make", "message"),
+    [
+        (lambda: E.Condition(name="a"), "Condition needs summary, change; it has: name, summary"),
+        (lambda: E.teleop.Scheme(name="a"), "Scheme needs law, coupling, summary; it has: name"),
+        (lambda: W.LocalModel(at=(0, 0, 0)), "LocalModel needs normal, stiffness; it has: at"),
+        (lambda: E.gastroscope.Procedure(pedals=1), "Procedure has no parameter 'pedals'"),
+        (lambda: E.gastroscope.Lumen(size=1), "Lumen has no parameter 'size'"),
+        (lambda: E.studies.Measure(key="a"), "Measure needs heading"),
+    ],
+)
+def test_a_constructor_names_what_it_takes(make: Callable[[], object], message: str) -> None:
+    with pytest.raises(TypeError, match=re.escape(message)):
+        make()

@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ebac._core import Patient, _Lumen
 from ebac._util.arguments import require
+from ebac._util.wrong_calls import plain_constructor
 from ebac.worlds.solids import Solid, check_solid, made
 
 
@@ -32,6 +33,7 @@ class Wall(NamedTuple):
     way: NDArray[np.float64]
 
 
+@plain_constructor
 class Lumen:
     """The lumen of a patient.
 

@@ -23,6 +23,7 @@ from ebac._util.arguments import (
 )
 from ebac._util.background import cancellable
 from ebac._util.plural import plural
+from ebac._util.wrong_calls import plain_constructor
 from ebac.gastroscope.lumen import Lumen
 from ebac.laws import AnyLaw, CoreLaw, design, law_name
 from ebac.laws.making import compiled
@@ -48,6 +49,7 @@ def default_targets(patient: Patient) -> tuple[Polyp, ...]:
     )
 
 
+@plain_constructor
 @dataclass(frozen=True, kw_only=True)
 class Procedure:
     """Everything of a gastroscopy but the law.

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from ebac._util.arguments import require
+from ebac._util.wrong_calls import plain_constructor
 from ebac.studies import scenario_changes as to
 from ebac.studies.scenario_changes import Belief, Change
 
@@ -15,6 +16,7 @@ if TYPE_CHECKING:
     from ebac.scenario import Scenario
 
 
+@plain_constructor
 @dataclass(frozen=True, kw_only=True)
 class Condition:
     """Changes for every hand, and the facts the laws are designed from.

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ebac._util import formatting
+from ebac._util.wrong_calls import plain_constructor
 
 if TYPE_CHECKING:
     from ebac.studies.result import Study
@@ -21,6 +22,7 @@ SPARE = 1e-3
 Columns: TypeAlias = dict[str, NDArray[Any]]
 
 
+@plain_constructor
 @dataclass(frozen=True, kw_only=True)
 class Measure:
     """One number of a law over a population.

@@ -8,10 +8,12 @@ from typing import Any
 
 from ebac._core import Coupling
 from ebac._util.arguments import named
+from ebac._util.wrong_calls import plain_constructor
 
 POSITION_FORCE, PASSIVITY, WAVES = 0, 1, 2
 
 
+@plain_constructor
 @dataclass(frozen=True, kw_only=True)
 class Scheme:
     """How master and slave are coupled, and the law of the master.

@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike
 
 from ebac._util.arguments import number
 from ebac._util.arrays import Values
+from ebac._util.wrong_calls import plain_constructor
 from ebac.worlds.part import three
 from ebac.worlds.world import Touch
 
@@ -22,6 +23,7 @@ Vector = tuple[float, float, float]
 STIFFEST, MOST_DAMPING = 1e7, 1e4
 
 
+@plain_constructor
 @dataclass(frozen=True, kw_only=True)
 class LocalModel:
     """What an engine says of the world near the handle: a plane or a sphere. The loop renders it at its own rate.
