@@ -79,13 +79,6 @@ def require_parts(owner: str, parts: Mapping[str, tuple[Any, type]]) -> None:
             raise TypeError(f"{owner}{name} = {shown(value)}: must be a {kind.__name__}")
 
 
-def require_each(values: Any, types: type | tuple[type, ...], function: str, wanted: str) -> None:
-    """Raise TypeError unless values are a sequence, of values of one of the types; `wanted` names it for people."""
-    require(values, Sequence, function, wanted)
-    for value in values:
-        require(value, types, function, wanted)
-
-
 def require_path(value: Any, function: str, wanted: str = "the path of a file") -> None:
     """Raise TypeError unless a value can be the path of a file."""
     require(value, (str, PathLike), function, wanted)
@@ -144,51 +137,6 @@ def number(name: str, value: Any) -> float:
 def of_percent(value: float) -> str:
     """Return a remedy for a share that was given in per cent; "" for a value that cannot have been meant so."""
     return f"; {value:g} % is {value / 100:g}" if 1 < value <= 100 else ""
-
-
-def several(name: str, values: Any, *, least: int = 1) -> list[Any]:
-    """Return a list of values, at least one; none may be given where `least` is 0.
-
-    Raises
-    ------
-    TypeError, ValueError
-        For what is no sequence, and for an empty one; the message names it.
-    """
-    if isinstance(values, (str, bytes)) or not isinstance(values, Iterable):
-        raise TypeError(f"{name} = {shown(values)}: must be a sequence, such as [{values!r}]")
-    every = list(values)
-    if len(every) < least:
-        raise ValueError(f"{name} = {every}: is empty; give one at least")
-    return every
-
-
-def several_numbers(name: str, values: Any) -> list[float]:
-    """Return a list of numbers, at least one.
-
-    Raises
-    ------
-    TypeError, ValueError
-        As by `several`, and for one that is no number; the message names it.
-    """
-    return [number(name, value) for value in several(name, values)]
-
-
-def each_once(name: str, values: Any, unit: str = "") -> list[Any]:
-    """Return a list of values as of `several`, each of which stands there once: a second row would hide the first.
-
-    Raises
-    ------
-    TypeError, ValueError
-        As by `several`, and for a value that stands there twice.
-    """
-    every = several(name, values)
-    unit = unit and f" {unit}"
-    for place, one in enumerate(every):
-        if one in every[:place]:
-            raise ValueError(
-                f"{name} = {every}{unit}: {one!r}{unit} stands there twice; give each once"
-            )
-    return every
 
 
 def keywords_only(

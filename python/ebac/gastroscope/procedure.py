@@ -13,16 +13,10 @@ from numpy.typing import NDArray
 
 from ebac import _core
 from ebac._core import Device, Free, Hand, Master, Patient, Physician, Polyp, Scope, Step
-from ebac._util.arguments import (
-    number,
-    require,
-    require_each,
-    require_parts,
-    require_path,
-    whole,
-)
+from ebac._util.arguments import number, require, require_parts, require_path, whole
 from ebac._util.background import cancellable
 from ebac._util.plural import plural
+from ebac._util.sequences import require_each
 from ebac._util.wrong_calls import plain_constructor
 from ebac.gastroscope.lumen import Lumen
 from ebac.laws import AnyLaw, CoreLaw, design, law_name

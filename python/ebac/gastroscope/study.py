@@ -13,9 +13,10 @@ from numpy.typing import NDArray
 
 from ebac import _core
 from ebac._core import Device, Hand, Linear, Master
-from ebac._util.arguments import each_once, number, require, several, whole
+from ebac._util.arguments import number, require, whole
 from ebac._util.background import cancellable
 from ebac._util.cores import thread_count
+from ebac._util.sequences import each_once, several
 from ebac.gastroscope.procedure import Procedure, core_law
 from ebac.laws import AnyLaw
 from ebac.laws.tuned_laws import on_its_observer

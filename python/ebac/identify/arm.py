@@ -11,7 +11,8 @@ from types import NoneType
 import numpy as np
 from numpy.typing import NDArray
 
-from ebac._util.arguments import number, require, several, whole
+from ebac._util.arguments import number, require, whole
+from ebac._util.sequences import several
 from ebac.identify.fit import Fitted
 from ebac.identify.informativeness import FASTEST
 from ebac.identify.intervals import Z95

@@ -9,8 +9,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ebac._util.arguments import named, several, unknown
+from ebac._util.arguments import named, unknown
 from ebac._util.arrays import Values
+from ebac._util.sequences import several
 from ebac.identify.guess import regression, solve
 from ebac.identify.intervals import Z95
 from ebac.identify.parameters import HAND, Parameters, kind

@@ -7,8 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ebac._util.arguments import number, several_numbers
+from ebac._util.arguments import number
 from ebac._util.arrays import Values
+from ebac._util.sequences import several_numbers
 from ebac.identify.missing import force_of_hand
 from ebac.identify.recording import Recording
 from ebac.identify.recording_list import require_recordings

@@ -7,8 +7,9 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from ebac._util.arguments import number, several_numbers, whole
+from ebac._util.arguments import number, whole
 from ebac._util.arrays import Values
+from ebac._util.sequences import several_numbers
 from ebac.operators.columns import OPERATOR_COLUMNS, check
 
 #: Least and most of mass [kg], damping [N s/m], stiffness [N/m] and target [m] of a random hand.

@@ -7,8 +7,9 @@ from collections.abc import Iterable
 from pathlib import Path
 
 from ebac._util import formatting
-from ebac._util.arguments import require_path, several
+from ebac._util.arguments import require_path
 from ebac._util.atomic_folder import filled
+from ebac._util.sequences import several
 from ebac.paper.finding import Finding, Row
 from ebac.paper.items import find
 

@@ -8,10 +8,11 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from ebac._util import formatting
-from ebac._util.arguments import require, require_each, several
+from ebac._util.arguments import require
 from ebac._util.arrays import Values
 from ebac._util.gaps import alone
 from ebac._util.plural import plural
+from ebac._util.sequences import require_each, several
 from ebac.plot.decades import limit_of, set_decades
 from ebac.plot.marks import mark_end, no_beta, title
 from ebac.plot.style import Picture, dress, legend, line, new_figure

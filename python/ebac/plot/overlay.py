@@ -10,7 +10,8 @@ from matplotlib.axes import Axes
 from numpy.typing import NDArray
 
 from ebac._util import formatting
-from ebac._util.arguments import require, require_each
+from ebac._util.arguments import require
+from ebac._util.sequences import require_each
 from ebac.plot.style import Picture, colour, dress, legend, line, new_figure
 from ebac.plot.takes import takes_its_class
 from ebac.trace import Trace

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 from matplotlib.axes import Axes
 from matplotlib.ticker import FuncFormatter, MaxNLocator
 
-from ebac._util.arguments import several
 from ebac._util.arrays import Values
+from ebac._util.sequences import several
 from ebac.plot.marks import mark_cut
 from ebac.plot.style import Picture, dress, figure_legend, line, new_figure
 

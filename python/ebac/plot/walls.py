@@ -11,7 +11,7 @@ import numpy as np
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 
-from ebac._util.arguments import require_each
+from ebac._util.sequences import require_each
 from ebac.metrics import STILL_SWING, TAIL_SHARE, ideal_rest
 from ebac.plot.marks import for_laws, heading
 from ebac.plot.style import Picture, colours, dress, figure_legend, landmarks, new_figure

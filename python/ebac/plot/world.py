@@ -12,8 +12,9 @@ from matplotlib.ticker import MaxNLocator
 from numpy.typing import NDArray
 
 from ebac._util import descriptions
-from ebac._util.arguments import require, require_each
+from ebac._util.arguments import require
 from ebac._util.arrays import Values
+from ebac._util.sequences import require_each
 from ebac.plot.style import Picture, colour, dress, legend, new_figure
 from ebac.trace import Trace
 from ebac.worlds import Body, World, distance

@@ -10,8 +10,8 @@ from textwrap import shorten
 from typing import Any
 
 from ebac._core import Device, Timing
-from ebac._util.arguments import require_each, several
 from ebac._util.plural import plural
+from ebac._util.sequences import require_each, several
 from ebac.laws import AnyLaw, changed, design, law_name
 from ebac.laws.protocols import is_core_law
 from ebac.laws.variant import shown_value

@@ -8,7 +8,8 @@ from dataclasses import asdict, dataclass
 from typing import Any
 
 from ebac._core import BridgeParams, EngineTiming, Wall
-from ebac._util.arguments import require, several, several_numbers
+from ebac._util.arguments import require
+from ebac._util.sequences import several, several_numbers
 from ebac.laws import AnyLaw, law_name
 from ebac.metrics import contact
 from ebac.scenario import Environment, Scenario

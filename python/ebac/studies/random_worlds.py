@@ -11,9 +11,10 @@ from typing import Any
 
 import numpy as np
 
-from ebac._util.arguments import named, require, several, whole
+from ebac._util.arguments import named, require, whole
 from ebac._util.cores import thread_count
 from ebac._util.progress import Progress
+from ebac._util.sequences import several
 from ebac.laws import AnyLaw, CoreLaw, PythonLaw, design
 from ebac.laws.making import reserve_of
 from ebac.laws.protocols import is_core_law

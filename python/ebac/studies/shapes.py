@@ -11,8 +11,8 @@ import numpy as np
 
 from ebac import presets
 from ebac._core import Device, Hand, Step, Timing
-from ebac._util.arguments import several, several_numbers
 from ebac._util.atomic_file import write_text
+from ebac._util.sequences import several, several_numbers
 from ebac.laws import AnyLaw, law_name
 from ebac.metrics import allowed_deviation, contact
 from ebac.metrics.world_rest import world_rest

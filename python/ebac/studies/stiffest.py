@@ -10,8 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ebac._core import Wall
-from ebac._util.arguments import number, of_percent, require, several_numbers
+from ebac._util.arguments import number, of_percent, require
 from ebac._util.progress import Progress
+from ebac._util.sequences import several_numbers
 from ebac.laws import LAWS
 from ebac.operators import Operators
 from ebac.scenario import Scenario

@@ -10,7 +10,8 @@ from typing import Any
 import numpy as np
 
 from ebac._core import Elastic, Hand, HuntCrossley, Plane, Recorded
-from ebac._util.arguments import require, several
+from ebac._util.arguments import require
+from ebac._util.sequences import several
 from ebac.laws import AnyLaw, law_name
 from ebac.metrics import contact
 from ebac.scenario import Scenario

@@ -8,9 +8,10 @@ from functools import partial
 from typing import Any
 
 from ebac._util import formatting
-from ebac._util.arguments import number, require, several, whole
+from ebac._util.arguments import number, require, whole
 from ebac._util.cores import thread_count
 from ebac._util.progress import Progress
+from ebac._util.sequences import several
 from ebac.laws import AnyLaw, design, law_name
 from ebac.laws.making import reserve_of
 from ebac.laws.tuned_laws import on_its_observer

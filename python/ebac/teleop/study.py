@@ -10,8 +10,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ebac._core import STILL_SWING, Hand, Link, MinimumJerk, SlaveModel
-from ebac._util.arguments import each_once, named, require, several
+from ebac._util.arguments import named, require
 from ebac._util.report import report
+from ebac._util.sequences import each_once, several
 from ebac.teleop.run import Run, simulate
 from ebac.teleop.schemes import SCHEMES, Scheme, chosen_scheme
 

@@ -8,8 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from ebac._util import formatting
-from ebac._util.arguments import require, several
+from ebac._util.arguments import require
 from ebac._util.plural import plural
+from ebac._util.sequences import several
 from ebac.testing.tolerance import Tolerance, default_tolerance
 from ebac.trace import Trace
 

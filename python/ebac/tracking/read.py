@@ -8,9 +8,10 @@ from pathlib import Path
 
 import numpy as np
 
-from ebac._util.arguments import require_file, several, unknown
+from ebac._util.arguments import require_file, unknown
 from ebac._util.arrays import Values
 from ebac._util.headings import FACTORS, split_heading
+from ebac._util.sequences import several
 from ebac._util.wrong_calls import plain_constructor
 from ebac.operators.columns import read_csv
 from ebac.trace import Trace

@@ -8,9 +8,10 @@ from pathlib import Path
 
 import numpy as np
 
-from ebac._util.arguments import require, several_numbers, unknown
+from ebac._util.arguments import require, unknown
 from ebac._util.arrays import Values
 from ebac._util.progress import Progress
+from ebac._util.sequences import several_numbers
 from ebac.laws import AnyLaw
 from ebac.scenario import Scenario
 from ebac.studies.maps.axes import AXES, MapAxis

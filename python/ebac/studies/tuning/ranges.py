@@ -9,8 +9,9 @@ from typing import Any, TypeAlias
 import numpy as np
 
 from ebac._core import Field
-from ebac._util.arguments import require, several_numbers, unknown_name
+from ebac._util.arguments import require, unknown_name
 from ebac._util.arrays import Values
+from ebac._util.sequences import several_numbers
 from ebac.laws import AnyLaw, law_name
 from ebac.laws.law_fields import PythonField, fields_of, unit_of
 

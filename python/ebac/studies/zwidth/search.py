@@ -10,8 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ebac._core import LinearLoop, Recorded, Timing, Wall
-from ebac._util.arguments import require, several, several_numbers, whole
+from ebac._util.arguments import require, whole
 from ebac._util.arrays import Values
+from ebac._util.sequences import several, several_numbers
 from ebac.laws import LAWS, AnyLaw
 from ebac.metrics import EXACT_COUNTS, ideal_rest
 from ebac.metrics.unjudged import no_ideal_rest
