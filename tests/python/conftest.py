@@ -13,6 +13,7 @@ import importlib.util
 import os
 import shutil
 import signal
+import sys
 import time
 from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, contextmanager
@@ -21,6 +22,7 @@ from itertools import count
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+import json_page
 import plain_pictures
 import pytest
 import typer.testing
@@ -107,6 +109,20 @@ def pictures(request: pytest.FixtureRequest) -> Iterator[None]:
         if request.path.stem not in ("test_figures", "test_plot"):
             patch.setattr(plain_pictures.SAVE, "write_png", plain_pictures.draw_plain)
         yield
+
+
+@pytest.fixture(scope="module", autouse=True)
+def keys_of_json() -> Iterator[None]:
+    """Fail where a command printed a key with `--json` that docs/reference/json.md does not have."""
+    output = sys.modules.get("ebac.cli.output")
+    if output is None:  # no command runs in this module
+        yield
+        return
+    missing = set[str]()
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(output, "document", json_page.looked_at(output.document, missing))
+        yield
+    assert not missing, f"not in {json_page.PAGE.name}: {', '.join(sorted(missing))}"
 
 
 @cache
