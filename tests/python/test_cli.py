@@ -995,12 +995,12 @@ def test_hands_that_the_motor_is_too_weak_for_are_counted(
     from ebac.cli import weak_motor
 
     base = ebac.Scenario()
-    weak_motor.tell(ebac.Operators.grid(), base)
+    weak_motor.note(ebac.Operators.grid(), base)
     assert capsys.readouterr().err == ""
     weak = base.replace(
         device=base.device.replace(motor=base.device.motor.replace(rated_torque=0.01))
     )
-    weak_motor.tell(ebac.Operators.grid(), weak)
+    weak_motor.note(ebac.Operators.grid(), weak)
     told = " ".join(capsys.readouterr().err.split())
     presses = [
         abs(s.hand.steady(ebac.ideal_rest(s))) for s in ebac.Operators.grid().scenarios(weak)
@@ -1018,7 +1018,7 @@ def test_a_weak_motor_is_told_from_the_wall_on_where_it_is_too_weak(
 
     device = ebac.Device(motor=ebac.Motor(rated_torque=0.008))
     base, hands = ebac.Scenario(device=device), ebac.Operators.grid()
-    weak_motor.tell_walls(hands, base, (500.0, 100.0, 400.0))
+    weak_motor.note_walls(hands, base, (500.0, 100.0, 400.0))
     told = " ".join(capsys.readouterr().err.split())
     assert (
         "at a wall of 0.4 kN/m and stiffer, hands press with more than the motor can give, 6.4 N"
@@ -1028,11 +1028,11 @@ def test_a_weak_motor_is_told_from_the_wall_on_where_it_is_too_weak(
         "for 12 of the 60 hands there, for 24 at 0.5 kN/m; this does not concern softer walls"
         in told
     )
-    weak_motor.tell_walls(hands, base, (500.0,))
+    weak_motor.note_walls(hands, base, (500.0,))
     told = " ".join(capsys.readouterr().err.split())
     assert "at a wall of 0.5 kN/m, hands press" in told
     assert told.endswith("for 24 of the 60 hands there.")
-    weak_motor.tell_walls(hands, base, (100.0,))
+    weak_motor.note_walls(hands, base, (100.0,))
     assert capsys.readouterr().err == ""
 
 
@@ -1041,9 +1041,9 @@ def test_runs_of_many_hands_that_are_too_short_are_named(
 ) -> None:
     from ebac.cli.studies import short_runs
 
-    short_runs.tell(ebac.Scenario(seconds=0.5))
+    short_runs.note(ebac.Scenario(seconds=0.5))
     assert capsys.readouterr().err == ""
-    short_runs.tell(ebac.Scenario(seconds=0.05))
+    short_runs.note(ebac.Scenario(seconds=0.05))
     assert "--seconds = 0.05 s: too short to judge a contact" in capsys.readouterr().err
 
 

@@ -14,7 +14,7 @@ from typer.testing import CliRunner
 import ebac
 from ebac import identify
 from ebac.cli import app
-from ebac.cli.identify.gains import _parts, _tell_other_device
+from ebac.cli.identify.gains import _note_other_device, _parts
 from ebac.hardware import Configuration
 from ebac.identify import Limits, Recording, Target, fit_gains, fit_loop
 from ebac.identify.figures import plot_gains
@@ -368,14 +368,14 @@ def test_a_log_of_another_device_than_that_of_the_file_is_noted(
 ) -> None:
     file, device = Path("mine.toml"), loop.device
     heavy = device.mechanics.replace(handle_mass=device.mechanics.handle_mass + 0.35)
-    _tell_other_device(file, device.replace(mechanics=heavy), loop)
+    _note_other_device(file, device.replace(mechanics=heavy), loop)
     said = " ".join(capsys.readouterr().err.split())
     found = loop.found.estimates["M_h"]
     assert (
         f"mine.toml: mass at the handle = {found.value + 0.35:.4g} kg, but the log shows M_h"
         in said
     )
-    _tell_other_device(file, device, loop)
+    _note_other_device(file, device, loop)
     assert capsys.readouterr().err == ""
 
 

@@ -87,7 +87,7 @@ class EbacBus(can.BusABC):
         self.channel = name
         self.channel_info = f"ebac channel '{name}'"
         self._tasks: WeakSet[Any] = WeakSet()
-        self._told = 0
+        self._warned_of = 0
         super().__init__(channel=name, can_filters=can_filters, **kwargs)
         _OPEN.add(self)
 
@@ -161,8 +161,8 @@ class EbacBus(can.BusABC):
 
     def _message(self, frame: CanFrame) -> can.Message:
         lost = self._end.counts.lost
-        if lost > self._told:
-            self._tell(lost)
+        if lost > self._warned_of:
+            self._warn_lost(lost)
         return can.Message(
             timestamp=1e-9 * frame.stamp,
             arbitration_id=frame.id,
@@ -175,9 +175,9 @@ class EbacBus(can.BusABC):
             is_rx=not frame.own,
         )
 
-    def _tell(self, lost: int) -> None:
+    def _warn_lost(self, lost: int) -> None:
         """Warn of lost frames, the next time when they are twice as many."""
-        self._told = 2 * lost
+        self._warned_of = 2 * lost
         _LOG.warning(
             "%s: %d frames lost so far, as they came faster than they were received; read them in a thread of "
             "its own (can.Notifier) or give a larger rx_queue_size",

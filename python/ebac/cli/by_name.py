@@ -39,7 +39,7 @@ def any_law(word: str, option: str = "--law", *, python: bool = False) -> AnyLaw
         law = own_law(word, option)
         if not (python or hasattr(law, "_simulate")):
             raise ValueError(f"{option} {word}: {IN_PYTHON}")
-        _tell_slow(law, f"{option} {word}")
+        _note_slow(law, f"{option} {word}")
         return law
     return one_law(word, option, own=f"; {FORM}")
 
@@ -71,7 +71,7 @@ def law_names(given: Sequence[str], option: str = "--law", own: str = _OWN_LAW) 
             raise ValueError(unknown(f"{option} {word}", name, [*known, "all"], "law") + hint)
         names += LAWS if name == "all" else [name]
     chosen = list(dict.fromkeys(names))
-    _tell_tuned([name for name in chosen if name not in LAWS])
+    _note_tuned([name for name in chosen if name not in LAWS])
     return chosen
 
 
@@ -100,7 +100,7 @@ def laws(given: Sequence[str], option: str = "--law", *, many: bool = False) -> 
                 "several objects of one class, each a `name` of its own"
             )
         if many:
-            _tell_slow(law, f"{option} {word}")
+            _note_slow(law, f"{option} {word}")
         found[name] = law
     return found
 
@@ -117,7 +117,7 @@ def _is_own(word: str) -> bool:
     return ":" in word or word.endswith(".py")
 
 
-def _tell_slow(law: AnyLaw, given: str) -> None:
+def _note_slow(law: AnyLaw, given: str) -> None:
     """Say on stderr that many runs of a law take their time where it is written in Python."""
     from ebac.cli import output
 
@@ -128,7 +128,7 @@ def _tell_slow(law: AnyLaw, given: str) -> None:
         )
 
 
-def _tell_tuned(names: Sequence[str]) -> None:
+def _note_tuned(names: Sequence[str]) -> None:
     """Say on stderr what a law with tuned parameters is."""
     from ebac.cli import output
     from ebac.laws.tuned_laws import tuned_text
@@ -171,7 +171,7 @@ def condition_names(given: Sequence[str]) -> list[str]:
             conditions([name])
         except ValueError as error:
             raise ValueError(f"--{error}") from None
-    doubtful_wall.tell_conditions(names)
+    doubtful_wall.note_conditions(names)
     return names
 
 

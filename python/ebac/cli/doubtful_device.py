@@ -29,13 +29,13 @@ SENSOR_OFF = "--device-sensor"
 TURN, WAY = 1.6, 1.0
 
 
-def tell(file: Path | str, device: Device) -> None:
+def note(file: Path | str, device: Device) -> None:
     """Say on stderr what of a device is doubtful."""
     for text in doubts(device):
         output.note(f"{file}: {text}")
 
 
-def tell_change(option: str, before: Device, after: Device) -> None:
+def note_change(option: str, before: Device, after: Device) -> None:
     """Say on stderr what an option makes doubtful of a device."""
     known = doubts(before)
     if option == SENSOR_OFF and not after.sensor.fitted:  # its noise is meant to be unused

@@ -32,11 +32,11 @@ PROTECTS = (
 LOOSE = 10
 
 
-def tell(file: Path | str, known: Configuration) -> None:
+def note(file: Path | str, known: Configuration) -> None:
     """Say on stderr what of a configuration is likely not meant: of device, wall, force sensor, and their limits."""
-    doubtful_device.tell(file, known.device)
-    doubtful_wall.tell_file(file, known.environment)
-    doubtful_sensor.tell(file, known.sensor)
+    doubtful_device.note(file, known.device)
+    doubtful_wall.note_file(file, known.environment)
+    doubtful_sensor.note(file, known.sensor)
     for text in doubts(known):
         output.note(f"{file}: {text}")
 

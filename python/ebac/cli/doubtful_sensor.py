@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 COARSEST = {"counts_per_force": (0.25, "N"), "counts_per_torque": (0.025, "N m")}
 
 
-def tell(file: Path | str, sensor: SensorConfig | None) -> None:
+def note(file: Path | str, sensor: SensorConfig | None) -> None:
     """Say on stderr which counts of a sensor are likely in a wrong unit; nothing without a sensor."""
     for text in () if sensor is None else doubts(sensor):
         output.note(f"{file}: {text}")

@@ -20,14 +20,14 @@ USUAL = (50.0, 500e3)
 MOST = 1e7
 
 
-def tell_option(stiffness: float | None) -> None:
+def note_option(stiffness: float | None) -> None:
     """Say on stderr where --wall-stiffness is likely in a wrong unit."""
     if stiffness is not None and (text := doubt(stiffness)):
         other = f"; {stiffness:g} kN/m is {1e3 * stiffness:g}" if stiffness < USUAL[0] else ""
         output.note(f"--wall-stiffness: {text}; the option is in N/m{other}")
 
 
-def tell_file(file: Path | str, environment: Environment) -> None:
+def note_file(file: Path | str, environment: Environment) -> None:
     """Say on stderr where the wall of a scenario file is likely in a wrong unit."""
     from ebac._core import Wall
 
@@ -35,7 +35,7 @@ def tell_file(file: Path | str, environment: Environment) -> None:
         output.note(f"{file}: environment.stiffness: {text}; it is in N/m (kN/m x 1e3)")
 
 
-def tell_place(option: float | None, file: Path | None, scenario: Scenario) -> None:
+def note_place(option: float | None, file: Path | None, scenario: Scenario) -> None:
     """Say on stderr where a wall stands behind the stops of the device; `option` [m] is that of --wall-position."""
     from ebac._core import Wall
 
@@ -56,7 +56,7 @@ def tell_place(option: float | None, file: Path | None, scenario: Scenario) -> N
     )
 
 
-def tell_untouched(scenario: Scenario, contacts: Iterable[Contact]) -> None:
+def note_untouched(scenario: Scenario, contacts: Iterable[Contact]) -> None:
     """Say on stderr where no law met a wall before the stops of the device, as the hand does not lead there."""
     import numpy as np
 
@@ -91,7 +91,7 @@ def _in_metres(place: float, end: float) -> str:
     return f"; positions are in metres{shown}"
 
 
-def tell_conditions(names: Iterable[str]) -> None:
+def note_conditions(names: Iterable[str]) -> None:
     """Say on stderr which conditions that are written out are likely in a wrong unit."""
     from ebac.studies.condition_grammar import written_out
 

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from ebac.cli import by_name, doubtful_run, options, output, setting
-from ebac.cli.drive.options import Yes, telling
+from ebac.cli.drive.options import Yes, reporting
 from ebac.cli.files import new_file
 
 if TYPE_CHECKING:
@@ -164,7 +164,7 @@ def live(
         "allow_control": allow_control, "virtual": virtual, "max_stiffness": max_stiffness,
         "max_damping": max_damping, "host": host, "port": port, "folder": out,
     }  # fmt: skip
-    with telling():
+    with reporting():
         _serve(configuration, scenario, real, law, settings, no_browser, yes, as_json)
 
 
@@ -189,7 +189,7 @@ def _serve(
     with output.refusing():
         known = None if file is None else Configuration.load(file)
         if known is not None:
-            doubtful_run.tell(str(file), known)
+            doubtful_run.note(str(file), known)
             known = known.replace(**observer_change(known, settings.pop("observer")))
         given = known if scenario is None else _scenario_of(scenario)
         wanted = None if law is None else by_name.designed_law(law, "the page")

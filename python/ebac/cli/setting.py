@@ -30,8 +30,8 @@ def base_scenario(file: Path | None) -> Scenario:
     found = Scenario.load(file)
     if not parsed(read_text(file)):
         output.note(f"{file}: sets nothing, so this is the reference device at the reference wall")
-    doubtful_device.tell(file, found.device)
-    doubtful_wall.tell_file(file, found.environment)
+    doubtful_device.note(file, found.device)
+    doubtful_wall.note_file(file, found.environment)
     return found
 
 
@@ -50,8 +50,8 @@ def device_base(file: Path | None) -> Scenario:
     known = Configuration.load(file, device_alone=True)
     doubtful_drives.note(file, known)
     found = known.scenario()
-    doubtful_device.tell(file, found.device)
-    doubtful_wall.tell_file(file, found.environment)
+    doubtful_device.note(file, found.device)
+    doubtful_wall.note_file(file, found.environment)
     return found
 
 
@@ -213,7 +213,7 @@ def choose_device(device: Device, options: Mapping[str, Any]) -> Device:
             before = chosen
             changed = getattr(chosen, part).replace(**{field: options[option]})
             chosen = chosen.replace(**{part: changed})
-            doubtful_device.tell_change(f"--{option.replace('_', '-')}", before, chosen)
+            doubtful_device.note_change(f"--{option.replace('_', '-')}", before, chosen)
     return chosen
 
 

@@ -29,7 +29,7 @@ def sentence(scenario: Scenario) -> str:
     return ""
 
 
-def tell(population: Operators, base: Scenario) -> None:
+def note(population: Operators, base: Scenario) -> None:
     """Say on stderr for how many hands the motor is too weak at their ideal rest."""
     if weak := _weak(population, base):
         output.note(
@@ -38,7 +38,7 @@ def tell(population: Operators, base: Scenario) -> None:
         )
 
 
-def tell_walls(population: Operators, base: Scenario, stiffnesses: Iterable[float]) -> None:
+def note_walls(population: Operators, base: Scenario, stiffnesses: Iterable[float]) -> None:
     """Say on stderr from which wall [N/m] on the motor is too weak for hands, as on a stiffer one they press harder."""
     from ebac._core import Wall
 

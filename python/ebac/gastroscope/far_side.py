@@ -143,7 +143,7 @@ class LinkAtWork:
         report = self.end.report()
         state = report["state"]
         if report["refused"] > _MOST_DAMAGED and not report["arrivals"]["received"]:
-            self._tell_refused(report["seconds"])
+            self._report_refused(report["seconds"])
         now = time.monotonic()
         if state == 1:
             self._since = None
@@ -158,7 +158,7 @@ class LinkAtWork:
             return False
         return True
 
-    def _tell_refused(self, t: float) -> None:
+    def _report_refused(self, t: float) -> None:
         if self._refused:
             return
         self._refused = True

@@ -174,7 +174,7 @@ def seems_flipped(explained: float, other_sign: float | None) -> bool:
 SURE = 0.9
 
 
-def told_share(explained: float) -> str:
+def share_text(explained: float) -> str:
     """Return a share of the motion (VAF) in words: "97.7 %"; below none the number says nothing."""
     return f"{100 * explained:.3g} %" if explained >= 0 else "less than nothing"
 
@@ -196,7 +196,7 @@ def flip_advice(sentence: str, explained: float, other_sign: float, turned: str 
     words = {"force": "the force", "motor": "the motor's force"}
     other = " and ".join(words[n] for n in names)
     return (
-        f"{sentence.format(told_share(explained))}; with {other} of the other sign "
+        f"{sentence.format(share_text(explained))}; with {other} of the other sign "
         f"{100 * other_sign:.3g} %: the log seems to hold {', and '.join(TURNED[n] for n in names)}. {options} "
         f"{'turns the sign (leave it' if len(names) == 1 else 'turn the signs (leave the one'} out that was given), "
         f"in Python load(..., {', '.join(f'flip_{n}=True' for n in names)})."
@@ -228,7 +228,7 @@ def _explains_little(result: ArmResult) -> Iterator[str]:
         )
     elif result.explained < POOR:
         share = (
-            f"explains only {told_share(result.explained)} of the motion (VAF)"
+            f"explains only {share_text(result.explained)} of the motion (VAF)"
             if result.explained >= 0
             else "explains less of the motion than none would (VAF below 0)"
         )

@@ -104,7 +104,7 @@ def study(
     columns = dict(result.columns)
     columns["condition"] = np.tile(np.repeat([c.name for c in chosen], lengths), n)
     columns["operator"] = np.tile(np.concatenate(rows), n)
-    _tell_of_free_air(chosen, lengths, scenarios, result["ideal_m"])
+    _warn_of_free_air(chosen, lengths, scenarios, result["ideal_m"])
     columns["ideal_settled_s"] = np.tile(ideal["settled_s"], n)
     columns["ideal_good"] = (
         np.abs(np.tile(ideal["rest_m"], n) - columns["ideal_m"]) <= columns["allowed_m"]
@@ -118,7 +118,7 @@ def study(
     )  # fmt: skip
 
 
-def _tell_of_free_air(
+def _warn_of_free_air(
     chosen: Sequence[Condition],
     lengths: Sequence[int],
     scenarios: Sequence[Scenario],

@@ -105,7 +105,7 @@ def _of_file(file: Path) -> tuple[Device, str]:
         from ebac.hardware import Configuration
 
         known = Configuration.load(file, device_alone=True)
-        doubtful_run.tell(file, known)
+        doubtful_run.note(file, known)
         preset = parsed(known.text).get("device", {}).get("preset", "joystick")
         device, base = known.device, f"device preset {preset}"
     return device, f"what it leaves out is that of the {base}"

@@ -65,7 +65,7 @@ def enable(
             _off(on, error)
             raise
         rows = [_state(one) for one in on]
-    _tell_states("drive enable", rows, as_json)
+    _show_states("drive enable", rows, as_json)
 
 
 def _off(powered: list[Drive], error: BaseException) -> None:
@@ -123,12 +123,12 @@ def _each(command: str, act: Callable[[Drive], object], chosen: list[Drive], as_
         except DriveError as error:
             failures.append(error)
     if rows and (as_json or not failures):
-        _tell_states(command, rows, as_json)
+        _show_states(command, rows, as_json)
     if failures:
         raise failures[0]
 
 
-def _tell_states(command: str, rows: list[dict[str, Any]], as_json: bool) -> None:
+def _show_states(command: str, rows: list[dict[str, Any]], as_json: bool) -> None:
     if as_json:
         typer.echo(output.document(command, rows))
     else:

@@ -19,8 +19,8 @@ from ebac.cli.drive.options import (
     drives,
     network_of,
     opened,
+    reporting,
     sheet_of,
-    telling,
 )
 
 if TYPE_CHECKING:
@@ -150,7 +150,7 @@ def timing(
 
     from ebac import drives as library
 
-    with telling():
+    with reporting():
         network = library.load(profile, nodes=node or (), bitrate=bitrate)
         found = library.bus_timing(
             network,

@@ -139,7 +139,7 @@ BackupFolder: TypeAlias = Annotated[
 
 
 @contextmanager
-def telling() -> Iterator[None]:
+def reporting() -> Iterator[None]:
     """Turn what goes wrong with a drive, or with a profile, into the end of the command."""
     from ebac.drives import DriveError
 
@@ -190,7 +190,7 @@ def opened(where: BusOptions) -> Iterator[DriveBus]:
         known_interface(where.interface)
         sheet_of(where)
     with (
-        telling(),
+        reporting(),
         DriveBus.open(
             interface=where.interface, channel=where.channel, bitrate=where.bitrate
         ) as bus,
@@ -265,7 +265,7 @@ def network_of(profile: str, node: list[int] | None, where: BusOptions) -> Netwo
     """Return the drives of a profile or network file; one that cannot be right ends the command."""
     from ebac import drives as library
 
-    with telling():
+    with reporting():
         network = library.load(profile, nodes=node or (), bitrate=where.bitrate)
         network.check_load()
         library.check_stall(network)

@@ -9,7 +9,7 @@ import typer
 
 from ebac._util.arguments import unknown
 from ebac.cli import doubtful_device, output, setting
-from ebac.cli.drive.options import profiles, telling
+from ebac.cli.drive.options import profiles, reporting
 
 if TYPE_CHECKING:
     from ebac._core import Device
@@ -69,7 +69,7 @@ def profile(
     if motor is not None and name is not None:
         from ebac.hardware import profile_for
 
-        with output.refusing(), telling():
+        with output.refusing(), reporting():
             text = profile_for(name, _device(motor), file=motor.name)
         found[name] = Source(name=name, text=text)
     rows = [
@@ -106,7 +106,7 @@ def _device(file: Path) -> Device:
     source = Source(name=str(file), text=text)
     if kind_of(source.table) == CONFIGURATION:
         device = read_device(source)
-        doubtful_device.tell(file, device)
+        doubtful_device.note(file, device)
     else:
         device = setting.base_scenario(file).device
     table = source.table.get("device", {})

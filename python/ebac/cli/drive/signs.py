@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from ebac.cli import output
-from ebac.cli.drive.options import ConfigurationFile, Simulated, Yes, sure, telling
+from ebac.cli.drive.options import ConfigurationFile, Simulated, Yes, reporting, sure
 
 if TYPE_CHECKING:
     from ebac.hardware import AxisSigns
@@ -56,7 +56,7 @@ def signs(
     from ebac.hardware.toml_table import SIMULATED, rewrite
     from ebac.simulation import LoopFault
 
-    with telling():
+    with reporting():
         known = Configuration.load(configuration)
         by_hand = None
         if known.sensor is None and not (simulated or yes):
@@ -69,7 +69,7 @@ def signs(
             yes,
         )
     try:
-        with telling(), any_key() as key:
+        with reporting(), any_key() as key:
             rows = find_signs(known, simulate=simulated, current=current, encoder=by_hand, look=key)
     except LoopFault as error:
         output.fail(f"{explained(error)}; nothing was written", code=output.FAILED)

@@ -18,9 +18,9 @@ import typer
 from ebac._util.arguments import unknown
 from ebac.cli import options, output, simulated
 from ebac.cli.drive import described
-from ebac.cli.drive.options import Bitrate, SheetFile, known_interface, telling
+from ebac.cli.drive.options import Bitrate, SheetFile, known_interface, reporting
 from ebac.cli.machine.grants import show_refused
-from ebac.cli.sensor.options import telling as telling_of_sensor
+from ebac.cli.sensor.options import reporting as reporting_of_sensor
 
 if TYPE_CHECKING:
     from ebac._core import Grant, Setup, SocketCanJoystick
@@ -158,7 +158,7 @@ def simulate(
     if realtime not in MODES:
         output.fail(unknown(f"--realtime {realtime}", realtime, MODES))
     grants: list[Grant] = []
-    with telling():
+    with reporting():
         if configuration is None:
             plant = simulated.plant_of(scenario, device, hand, seed)
             found = described.by_options(plant, first, zero, eds, sensor_counts, wiring)
@@ -176,7 +176,7 @@ def simulate(
         loop = RealTime(priority=beside, lock_memory=lock_memory)
         request = Request.beside(realtime, loop)
         cell = None if aim is None else SharedHandTarget(aim)
-    with telling(), telling_of_sensor(), simulated.signalled() as over:
+    with reporting(), reporting_of_sensor(), simulated.signalled() as over:
         shared_force = SharedForce([0.0, 0.0, 0.0])
         more = {
             "wiring": DriveWiring(**found.wiring),
@@ -202,7 +202,7 @@ def simulate(
             )
             for line in found.about:
                 output.say(line)
-            _tell(grants, as_json=until_eof)
+            _show_grants(grants, as_json=until_eof)
             sys.stdout.flush()
             if until_eof:
                 threading.Thread(target=_until_eof, args=(over,), daemon=True).start()
@@ -272,7 +272,7 @@ def _at_work(
             yield simulation
 
 
-def _tell(grants: list[Grant], *, as_json: bool) -> None:
+def _show_grants(grants: list[Grant], *, as_json: bool) -> None:
     """Print what the threads were not granted; for a program, all they asked for, as JSON."""
     from ebac.hardware.report import grant_row
 

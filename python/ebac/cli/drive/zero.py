@@ -9,7 +9,7 @@ import typer
 
 from ebac.cli import output
 from ebac.cli.drive import positions
-from ebac.cli.drive.options import ConfigurationFile, Simulated, Yes, sure, telling
+from ebac.cli.drive.options import ConfigurationFile, Simulated, Yes, reporting, sure
 
 #: The handle stands still: no axis goes further while somebody answers [m].
 STILL = 5e-4
@@ -46,7 +46,7 @@ def zero(
     from ebac.hardware.axis_positions import axis_name, positions_at_zero
     from ebac.hardware.toml_table import rewrite
 
-    with telling():
+    with reporting():
         known = Configuration.load(configuration)
         found = axis_positions(known, simulate=simulated)
     surfaces = distances(known, found)
@@ -58,7 +58,7 @@ def zero(
         if not simulated:
             where = ", ".join(f"{one.counts}" for one in found)
             sure(f"Is the handle at its mark, so that {where} counts are its zero?", yes)
-        with telling():
+        with reporting():
             now = axis_positions(known, simulate=simulated)
         for one, before in zip(now, found, strict=True):
             if abs(one.position_m - before.position_m) > STILL:

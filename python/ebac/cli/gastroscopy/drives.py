@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from ebac.cli import by_name, interrupts, options, output, simulated
-from ebac.cli.drive.options import Yes, telling
+from ebac.cli.drive.options import Yes, reporting
 from ebac.cli.gastroscopy.line_printer import LinePrinter
 from ebac.cli.gastroscopy.side_table import show
 from ebac.cli.run.confirm import can_ask, confirm
@@ -96,7 +96,7 @@ def master(
     """
     from ebac.gastroscope.on_drives import run_master
 
-    with output.refusing(), telling(), LinePrinter(err=as_json) as printer:
+    with output.refusing(), reporting(), LinePrinter(err=as_json) as printer:
         if consent_after is not None and not on_simulated:
             output.fail(
                 f"--consent-after {consent_after:g}: only with --simulated; on your drives the hand agrees, by Enter"
@@ -175,7 +175,7 @@ def slave(
     """
     from ebac.gastroscope.on_drives import run_slave
 
-    with output.refusing(), telling(), LinePrinter(err=as_json) as printer:
+    with output.refusing(), reporting(), LinePrinter(err=as_json) as printer:
         both = _known({"feed": feed, "bend": bend}, on_simulated)
         for known in both if not on_simulated else ():
             can_ask(known, yes)

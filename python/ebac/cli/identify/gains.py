@@ -154,7 +154,7 @@ def gains(
         )  # fmt: skip
         result = fit_gains(loop, law, limits=limits, vary=vary, progress=progress)
     if scenario is not None and device is not None:
-        _tell_other_device(scenario, device, loop)
+        _note_other_device(scenario, device, loop)
     files = _write(to, result, scenario)
     if as_json:
         more = result.to_dict()
@@ -205,7 +205,7 @@ def _parts(file: Path | None) -> tuple[Device | None, Wall | None, int]:
     return device, base.environment, base.timing.delay
 
 
-def _tell_other_device(file: Path, device: Device, loop: LoopModel) -> None:
+def _note_other_device(file: Path, device: Device, loop: LoopModel) -> None:
     """Say on stderr what of the device in the log is not that of the file, beyond its interval and a share."""
     if loop.found is None:
         return

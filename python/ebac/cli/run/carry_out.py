@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import typer
 
 from ebac.cli import interrupts, output
-from ebac.cli.drive.options import telling
+from ebac.cli.drive.options import reporting
 from ebac.cli.files import FigureOptions
 from ebac.cli.run import engine, results
 from ebac.cli.run.confirm import confirm
@@ -44,7 +44,7 @@ def run_in_real_time(
 
     log = None if stem is None else stem.with_suffix(".mcap")
     fault: LoopFault | None = None
-    with telling():
+    with reporting():
         with OpenDevice.open(known, **how) as device:
             confirm(device, yes, stderr=as_json)
             try:
@@ -52,7 +52,7 @@ def run_in_real_time(
             except LoopFault as error:
                 fault, trace = error, error.trace
             except BaseException:
-                _tell_end(device, as_json)
+                _show_end(device, as_json)
                 raise
             finally:
                 _keep(log)
@@ -97,7 +97,7 @@ def run_virtual(
 
     log = None if stem is None else stem.with_suffix(".mcap")
     fault: LoopFault | None = None
-    with telling():
+    with reporting():
         try:
             trace = known.simulate(bus_time=bus_time)
         except LoopFault as error:
@@ -137,7 +137,7 @@ def give(
         raise typer.Exit(output.FAILED)  # its own sentence stands above
 
 
-def _tell_end(device: OpenDevice, as_json: bool) -> None:
+def _show_end(device: OpenDevice, as_json: bool) -> None:
     """Say on what a run ended that gives no result, and that nothing has power."""
     report = device.report
     if report is None:

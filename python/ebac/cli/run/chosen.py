@@ -26,7 +26,7 @@ def chosen(
     from ebac.hardware.world_place import check_reached
 
     known = Configuration.load(file)
-    doubtful_run.tell(file, known)
+    doubtful_run.note(file, known)
     changes: dict[str, Any] = {
         "environment": from_options.wall(known.environment, wall),
         "hand": from_options.hand(known.hand, person),

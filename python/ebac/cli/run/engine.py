@@ -72,7 +72,7 @@ def watch(process: EngineProcess | None) -> Callable[[Run], None]:
     said: set[str] = set()
     posted, since = 0, 0.0
 
-    def tell(what: str, text: str, t: float) -> None:
+    def report(what: str, text: str, t: float) -> None:
         if what not in said:
             said.add(what)
             output.console(stderr=True).print(
@@ -89,11 +89,11 @@ def watch(process: EngineProcess | None) -> Callable[[Run], None]:
             said.discard("hangs")
         faded = process.rendering.stale + process.rendering.fade
         if trouble := process.trouble:
-            tell("gone", f"{trouble}: its force fades to zero", t)
+            report("gone", f"{trouble}: its force fades to zero", t)
         elif posted == 0 and t > _SILENT:
-            tell("silent", "the engine has posted nothing so far: no force is rendered", t)
+            report("silent", "the engine has posted nothing so far: no force is rendered", t)
         elif posted > 0 and t - since > faded + _HUNG:
-            tell("hangs", "the engine has stopped posting: its force has faded to zero", t)
+            report("hangs", "the engine has stopped posting: its force has faded to zero", t)
 
     return look
 

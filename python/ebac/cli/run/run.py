@@ -8,7 +8,7 @@ from typing import Annotated
 import typer
 
 from ebac.cli import options, output
-from ebac.cli.drive.options import Yes, telling
+from ebac.cli.drive.options import Yes, reporting
 from ebac.cli.files import PANEL, FigureOptions
 from ebac.cli.run import carry_out, engine
 from ebac.cli.run.chosen import chosen, first_run
@@ -176,7 +176,7 @@ def run(
             f"--virtual excludes {', '.join(given)}, which belongs to a run in real time: leave out one or the other"
         )
     style.check()
-    with output.refusing(), telling():
+    with output.refusing(), reporting():
         schedule = Schedule.parse(at or [])
         known = chosen(configuration, law, seconds, rate, observer, wall, person)
         changed: tuple[str, ...] = ()

@@ -75,7 +75,7 @@ def bias(
         else:
             mean = sensor.bias(records, timeout=which.timeout, **accepted)
         after = sensor.rest(records, timeout=which.timeout)
-    _tell(hypot(*before.mean[:3]), beyond=any(found.bias))
+    _note_zero(hypot(*before.mean[:3]), beyond=any(found.bias))
     rows: list[dict[str, Any]] = [
         {
             "what": name,
@@ -113,8 +113,8 @@ def bias(
         output.indented(f"bias = [{', '.join(f'{value:.6g}' for value in mean)}]")
 
 
-def _tell(force: float, *, beyond: bool) -> None:
-    """Say which force is taken as zero, where it may be that of a hand; `beyond` is a bias in the configuration."""
+def _note_zero(force: float, *, beyond: bool) -> None:
+    """Note which force is taken as zero, where it may be that of a hand; `beyond` is a bias in the configuration."""
     if force > _SILENT:
         more = " beyond the bias of the configuration" if beyond else ""
         output.note(

@@ -52,7 +52,7 @@ class SensorOptions:
 
 
 @contextmanager
-def telling() -> Iterator[None]:
+def reporting() -> Iterator[None]:
     """Turn what goes wrong with a sensor into the end of the command."""
     from ebac.sensor import SensorError
 
@@ -73,7 +73,7 @@ def configured(which: SensorOptions) -> SensorConfig:
         config = base.replace(**setting.given(host=which.host, port=which.port, model=which.model))
         config.core()  # looks the name up
     if which.page:
-        with telling():
+        with reporting():
             found = read_page(config.host, http_port=which.http_port, timeout=which.timeout)
         config = config.replace(
             counts_per_force=found.counts_per_force, counts_per_torque=found.counts_per_torque
@@ -86,7 +86,7 @@ def opened(config: SensorConfig, timeout: float) -> Iterator[Sensor]:
     """Give the open sensor; what goes wrong with it ends the command."""
     from ebac.sensor import Sensor
 
-    with telling(), Sensor.open(config, timeout=timeout) as sensor:
+    with reporting(), Sensor.open(config, timeout=timeout) as sensor:
         yield sensor
 
 

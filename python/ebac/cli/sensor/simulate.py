@@ -82,7 +82,7 @@ def simulate(
         source = _source(hand_force, scenario, device, hand, seed)
         built = EmulatorOptions(rate=rate, load=load)
         trouble = EmulatorTrouble(loss=loss, duplicate=duplicate, reorder=reorder)
-    with output.refusing(), sensor_options.telling():
+    with output.refusing(), sensor_options.reporting():
         work = SimulatedSensor(
             source,
             host=host,

@@ -79,7 +79,7 @@ def ablation(
             "out": None if folder is None else folder / study_results.BUNDLES,
         }
         people = hands.operators()
-        replaced.tell(given["base"], conditions_of(MEASURES))
+        replaced.note(given["base"], conditions_of(MEASURES))
     found = _run(people, given, folder, quiet=as_json)
     to.report(
         folder, "ablation", _document(found), as_json=as_json,
@@ -132,7 +132,7 @@ def _show(found: Ablation) -> None:
             grid.add_row(row.label, *cells)
         output.show(grid)
     for piece, row in zip(found.pieces, found.rows[1:], strict=False):
-        _tell(piece, row, found)
+        _show_piece(piece, row, found)
     hands = len(found.study.operators)
     output.say(
         f"Simulated, not measured; {output.plural(hands, 'hand')}. Red, in the figure orange: worse than {found.law} "
@@ -146,7 +146,7 @@ def _cell(row: AblationRow, key: str, text: str) -> str:
     return f"[{style}]{text}[/]" if style else text
 
 
-def _tell(piece: Piece, row: AblationRow, found: Ablation) -> None:
+def _show_piece(piece: Piece, row: AblationRow, found: Ablation) -> None:
     verdict = "worse" if row.earns else "nothing gets worse"
     lines = [verdict + (f": {_list(row, found, row.worse)}" if row.worse else "")]
     if row.better:

@@ -137,7 +137,7 @@ def random_worlds(
     def show() -> None:
         _show(found)
         if folder is not None:
-            _tell_replay(found, folder, by_name.own_words(law or []))
+            _show_replay(found, folder, by_name.own_words(law or []))
 
     to.report(
         folder, "random-worlds", _document(found), as_json=as_json,
@@ -243,7 +243,7 @@ def _sentence(total: RandomWorldRow) -> str:
     return f"{total.law}: of {output.plural(total.hands, 'run')}{came_to} the worst drew {most}."
 
 
-def _tell_replay(found: RandomWorlds, folder: Path, own: Mapping[str, str]) -> None:
+def _show_replay(found: RandomWorlds, folder: Path, own: Mapping[str, str]) -> None:
     output.say("\nReplay the worst hand of each law:", style="bold")
     for total in found.totals():
         law = own.get(total.law, total.law)

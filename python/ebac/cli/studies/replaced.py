@@ -15,7 +15,7 @@ PARTS = ("device", "environment", "timing", "seconds", "jitter")
 _UNITS = {"seconds": "s"}
 
 
-def tell(base: Scenario, names: Sequence[str]) -> None:
+def note(base: Scenario, names: Sequence[str]) -> None:
     """Print which values that differ from the reference scenario the conditions replace, and by what."""
     lines = replaced(base, names)
     if not lines:

@@ -10,7 +10,7 @@ if TYPE_CHECKING:
     from ebac.scenario import Scenario
 
 
-def tell(base: Scenario) -> None:
+def note(base: Scenario) -> None:
     """Say on stderr that runs so short say nothing of a law: their hands have not settled and are not good."""
     from ebac._util.verdicts import JUDGED_FROM
 

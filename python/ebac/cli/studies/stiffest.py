@@ -96,8 +96,8 @@ def stiffest(
             "threads": threads,
             **({"stiffnesses": wall_stiffness} if wall_stiffness else {}),
         }
-        weak_motor.tell_walls(given["population"], base, wall_stiffness or LADDER)
-        short_runs.tell(given["base"])
+        weak_motor.note_walls(given["population"], base, wall_stiffness or LADDER)
+        short_runs.note(given["base"])
     folder = to.folder("stiffest", as_json=as_json, resume=study_results.BUNDLES * resume)
     found = _run(laws, given, folder, resume, quiet=as_json)
     to.report(
@@ -128,7 +128,7 @@ def _check(share: float, stiffnesses: Sequence[float]) -> None:
             raise ValueError(
                 f"--wall-stiffness = {stiffness:g} N/m: must lie in (0, {doubtful_wall.MOST:g}] N/m"
             )
-        doubtful_wall.tell_option(stiffness)
+        doubtful_wall.note_option(stiffness)
 
 
 def _run(

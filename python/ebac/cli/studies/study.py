@@ -90,9 +90,9 @@ def study(
             "seed": hands.seed,
             "threads": threads,
         }
-        replaced.tell(given["base"], given["conditions"])
-        weak_motor.tell(people, given["base"])
-        short_runs.tell(given["base"])
+        replaced.note(given["base"], given["conditions"])
+        weak_motor.note(people, given["base"])
+        short_runs.note(given["base"])
     folder = to.folder("study", as_json=as_json, resume=study_results.BUNDLES * resume)
     found = _run(people, laws, given, folder, resume, quiet=as_json)
     to.report(

@@ -102,7 +102,7 @@ def tune(
             laws = {name: one for name, one in laws.items() if name in RANGES}
         wanted = by_name.condition_names(condition or TUNING_CONDITIONS)
         base = from_options.scenario(device, length)
-        replaced.tell(base, wanted)
+        replaced.note(base, wanted)
         training = Operators.sample(hands, HANDS_SEED)
         for name, one in laws.items():
             with output.counting(f"tuning {name}", quiet=as_json) as progress:

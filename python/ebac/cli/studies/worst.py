@@ -117,7 +117,7 @@ def worst(
         chosen = changed_laws.instead(laws, change or [])
         base = from_options.scenario(device, length)
         wanted = by_name.one_condition(condition or options.usual_condition(length))
-        replaced.tell(base, [wanted])
+        replaced.note(base, [wanted])
         families = output.words(family)
         folder = to.folder("worst", as_json=as_json)
         interrupts.keeping(
@@ -140,7 +140,7 @@ def worst(
         else:
             worst_tables.show_one(found[0], evaluations)
         if folder is not None:
-            _tell_replay(found, folder, by_name.own_words(law or []), changed=bool(change))
+            _show_replay(found, folder, by_name.own_words(law or []), changed=bool(change))
 
     to.report(
         folder, "worst", _document(found, evaluations, seed, length.seconds), as_json=as_json,
@@ -186,7 +186,7 @@ def _file(one: Worst, hand: WorstHand, found: Sequence[Worst]) -> str:
     return f"worst-{hand.family.name if len(found) == 1 else file_name(one.law)}"
 
 
-def _tell_replay(
+def _show_replay(
     found: Sequence[Worst], folder: Path, own: Mapping[str, str], *, changed: bool
 ) -> None:
     from ebac.studies.worst import replays

@@ -179,21 +179,21 @@ def _run(
         while time.monotonic() < end and not over.is_set():
             report = side.run(CUT)
             if report["losses"] > losses and report["state"] != LOST:  # within one report
-                _tell(f"{report['seconds']:8.1f} s  {name}: {STATES[LOST]}", as_json)
+                _show_line(f"{report['seconds']:8.1f} s  {name}: {STATES[LOST]}", as_json)
             if report["other_scheme"] and not other:
                 other = True
-                _tell(f"            {name}: {OTHER_SCHEME}", as_json)
+                _show_line(f"            {name}: {OTHER_SCHEME}", as_json)
             if not hinted and report["seconds"] > PATIENCE:
                 hinted = True
                 if not report["arrivals"]["received"] and not other:
-                    _tell(f"{report['seconds']:8.1f} s  {name}: {NO_SLAVE} ({peer})", as_json)
+                    _show_line(f"{report['seconds']:8.1f} s  {name}: {NO_SLAVE} ({peer})", as_json)
             losses = report["losses"]
             if name != "network" and report["state"] != state:
                 state = report["state"]
-                _tell(f"{report['seconds']:8.1f} s  {name}: {STATES[state]}", as_json)
+                _show_line(f"{report['seconds']:8.1f} s  {name}: {STATES[state]}", as_json)
                 enter.withdraw()
                 if state == BACK and by_hand:
-                    _tell(f"            {enter.question}", as_json)
+                    _show_line(f"            {enter.question}", as_json)
                     enter.ask()
             if enter.given():
                 side.consent()
@@ -236,7 +236,7 @@ def _named(report: dict[str, Any], units: dict[str, str]) -> dict[str, Any]:
     )
 
 
-def _tell(text: str, as_json: bool) -> None:
+def _show_line(text: str, as_json: bool) -> None:
     typer.echo(text, err=as_json)
 
 

@@ -120,7 +120,7 @@ def _check_length(scenario: Scenario) -> None:
         )
 
 
-def _tell_left(trace: Trace, scenario: Scenario) -> None:
+def _note_left(trace: Trace, scenario: Scenario) -> None:
     """Say on stderr where a handle was beyond the stops of its device, which this simulation does not have."""
     import numpy as np
 
@@ -170,8 +170,8 @@ def _run(
     except LoopFault as fault:
         wall_results.report_fault(fault, out)
     for trace in traces:
-        _tell_left(trace, scenario)
-    doubtful_wall.tell_untouched(scenario, contacts)
+        _note_left(trace, scenario)
+    doubtful_wall.note_untouched(scenario, contacts)
     if as_json:
         typer.echo(text)
         return
