@@ -72,7 +72,7 @@ def test_every_path_but_a_recorded_one_is_left(path: object) -> None:
     assert abs(passed(joystick, 3)[0] + 0.03) < 1e-3
 
 
-def test_another_process_tells_by_the_same_cell() -> None:
+def test_another_process_gives_the_target_by_the_same_cell() -> None:
     cell = SharedHandTarget()
     joystick = Joystick(patient().scenario().setup(), aim=cell)
     script = f"from ebac._core import SharedHandTarget; SharedHandTarget({cell.descriptor}).post([0.03, {STAY!r}, 0.0])"

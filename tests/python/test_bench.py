@@ -37,7 +37,7 @@ def test_memory_is_that_of_the_rows() -> None:
     assert 0.9 < peak / (100_000 * row) < 1.5
 
 
-def test_what_is_missing_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_what_is_missing_is_reported(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "mujoco", None)
     result = CliRunner().invoke(app, ["bench", "--peers", "--json"])
     assert result.exit_code == 2

@@ -45,7 +45,7 @@ def test_the_table() -> None:
     assert "µs" in result.stdout
 
 
-def test_steps_are_as_many_as_are_told() -> None:
+def test_steps_are_as_many_as_were_asked_for() -> None:
     told: list[str] = []
     bus.compare_buses(repeats=1, step=told.append)
     assert len(told) == bus.STEPS

@@ -267,7 +267,7 @@ def test_shutdown_in_the_middle_of_periodic_sending(channel: str) -> None:
     time.sleep(0.01)
 
 
-def test_a_notifier_tells_its_listeners(channel: str) -> None:
+def test_a_notifier_calls_its_listeners(channel: str) -> None:
     with bus(channel) as mine, bus(channel) as other:
         reader, got = can.BufferedReader(), []
         with can.Notifier(other, [reader, got.append], timeout=0.1):
@@ -389,7 +389,9 @@ def test_impossible_messages_are_refused(channel: str, bad: can.Message, tells: 
         assert other.recv(0) is None
 
 
-def test_lost_frames_are_counted_and_told(channel: str, caplog: pytest.LogCaptureFixture) -> None:
+def test_lost_frames_are_counted_and_reported(
+    channel: str, caplog: pytest.LogCaptureFixture
+) -> None:
     with bus(channel) as mine, bus(channel, rx_queue_size=3) as other:
         for i in range(10):
             mine.send(message(i))
@@ -688,7 +690,7 @@ def test_any_number_of_seconds_may_be_waited() -> None:
         assert other.receive(timeout) is not None
 
 
-def test_socketcan_tells_what_is_missing() -> None:
+def test_socketcan_says_what_is_missing() -> None:
     with pytest.raises(OSError, match="CAN interface 'no-such-if0'") as error:
         _core.SocketCan("no-such-if0")
     assert "modprobe can_raw" in str(error.value) or "no such interface" in str(error.value)

@@ -35,7 +35,7 @@ def made_up(**columns: Any) -> ebac.Trace:
 # --- passive ---
 
 
-def test_passive_tells_when_and_how_much() -> None:
+def test_passive_names_when_and_how_much() -> None:
     trace = ebac.simulate(ebac.Scenario(seconds=1.0), "tca")
     energy = trace["true.energy"]
     tick = int(energy.argmin())
@@ -192,7 +192,7 @@ def test_the_first_divergence_is_the_first(tick: int, size: float) -> None:
     assert len(result.divergences) == 1
 
 
-def test_axes_are_told_apart() -> None:
+def test_axes_are_distinguished() -> None:
     device = ebac.Device(kinematics=ebac.Linear(axes=2))
     scenario = ebac.Scenario(device=device, environment=ebac.Corner(), seconds=0.1)
     one = ebac.simulate(scenario, "eba")

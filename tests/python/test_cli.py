@@ -227,7 +227,7 @@ def test_wall_writes_table_figure_logs_and_scenario(tmp_path: Path) -> None:
     assert (folder / "wall.png").read_bytes().startswith(b"\x89PNG")
 
 
-def test_wall_tells_in_words_and_units() -> None:
+def test_wall_answers_in_words_and_units() -> None:
     text = ebac_command("wall", "--no-files").stdout
     for word in ("swings", "exact", "and quiet", "too deep"):
         assert word in text
@@ -1010,7 +1010,7 @@ def test_hands_that_the_motor_is_too_weak_for_are_counted(
     assert f"{count} of the 60 hands press with more than the motor can give, 8 N" in told
 
 
-def test_a_weak_motor_is_told_from_the_wall_on_where_it_is_too_weak(
+def test_a_weak_motor_is_distinguished_from_the_wall_on_where_it_is_too_weak(
     capsys: pytest.CaptureFixture[str],
 ) -> None:
     """It said the count of one wall of all of the search, and the table beside it had 60 of 60 hands."""

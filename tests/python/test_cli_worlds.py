@@ -58,7 +58,7 @@ def test_every_world_is_listed_with_what_it_needs() -> None:
     assert [one["name"] for one in rows] == [*PRESETS, "mesh:FILE"]
 
 
-def test_a_grid_in_the_making_tells_whoever_watches(
+def test_a_grid_in_the_making_calls_whoever_watches(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     pytest.importorskip("igl")

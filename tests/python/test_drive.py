@@ -308,7 +308,7 @@ def test_a_quick_stop_ends_without_power(drive: drives.Drive) -> None:
 # --- faults ---
 
 
-def test_a_fault_tells_code_latched_names_and_emergencies(drive: drives.Drive) -> None:
+def test_a_fault_names_code_latched_names_and_emergencies(drive: drives.Drive) -> None:
     drive.enable(mode=10)
     fail(drive, OVER_VOLTAGE)
     with pytest.raises(drives.DriveFault) as caught:
@@ -380,7 +380,9 @@ def test_silence_of_one_node_among_others_points_at_its_id(bus: drives.DriveBus)
     assert "On the bus meanwhile: nothing; before that nodes 1, 2. Check: 1. the node id" in said
 
 
-def test_a_node_that_falls_silent_is_told_from_one_that_never_was(bus: drives.DriveBus) -> None:
+def test_a_node_that_falls_silent_is_distinguished_from_one_that_never_was(
+    bus: drives.DriveBus,
+) -> None:
     drive = bus.drive(1, timeout=0.02)
     assert drive.state is State.SWITCH_ON_DISABLED
     with contextlib.suppress(drives.NoAnswer):
@@ -413,7 +415,7 @@ def other_frames(channel: str, frames: list[tuple[int, bytes]], stop: threading.
         ([(0x087, b"\1")], ["emergency of node 7"]),
     ],
 )  # fmt: skip
-def test_silence_tells_what_was_heard_and_what_that_means(
+def test_silence_says_what_was_heard_and_what_that_means(
     frames: list[tuple[int, bytes]], expected: list[str]
 ) -> None:
     stop = threading.Event()

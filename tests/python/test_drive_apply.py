@@ -129,7 +129,7 @@ def test_apply_verify_restore(
         drives.restore(drive, backups=shelf)
 
 
-def test_the_plan_tells_object_now_wanted_and_why(bus: drives.DriveBus, node: drives.Node) -> None:
+def test_the_plan_names_object_now_wanted_and_why(bus: drives.DriveBus, node: drives.Node) -> None:
     rows = {change.object.name: change.row() for change in drives.plan(bus.drive(1), node).changes}
     assert rows["sync_period"] == {
         "node": 1, "object": "0x1006", "name": "sync_period", "now": 0, "wanted": 1000, "unit": "us",
@@ -347,7 +347,7 @@ def test_what_is_no_backup_is_refused(text: str) -> None:
         Backup.from_json(text)
 
 
-def test_a_backup_is_of_one_drive_and_a_broken_one_is_told(
+def test_a_backup_is_of_one_drive_and_a_broken_one_is_reported(
     bus: drives.DriveBus, shelf: drives.Backups, node: drives.Node
 ) -> None:
     drives.apply(bus.drive(1), node, backups=shelf)

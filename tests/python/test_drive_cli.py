@@ -89,7 +89,7 @@ def test_every_command_teaches_by_an_example(command: str) -> None:
     assert "--interface" in text
 
 
-def test_help_tells_the_order_of_things() -> None:
+def test_help_gives_the_order_of_things() -> None:
     text = CliRunner().invoke(app, ["drive", "--help"]).output
     places = [text.index(f"ebac drive {command}") for command in ("scan", "plan", "apply")]
     assert places == sorted(places)
@@ -207,7 +207,7 @@ def test_plan_apply_verify_restore(drive: Run, tmp_path: Path) -> None:
     assert "nothing to restore" in said(drive("restore", "--yes", code=1))
 
 
-def test_apply_tells_why_it_writes_more_than_was_planned(drive: Run) -> None:
+def test_apply_says_why_it_writes_more_than_was_planned(drive: Run) -> None:
     planned = drive("plan", "-n", "1", "--json")["rows"]
     told = " ".join(drive("apply", "-n", "1", "--yes").stdout.split())
     assert (

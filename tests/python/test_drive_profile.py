@@ -296,7 +296,7 @@ def test_a_torque_constant_of_peak_or_effective_amperes_is_taken(constant: float
     assert profile.replace(motor__torque_constant=constant)
 
 
-def test_the_page_tells_how_long_each_profile_holds_a_torque() -> None:
+def test_the_page_says_how_long_each_profile_holds_a_torque() -> None:
     page = Path(__file__).parents[2] / "docs" / "how-to" / "set_up_drives.md"
     told: dict[str, float] = {}
     for row in re.finditer(r"^\| (`.*?) \| .* \| (\d+) ms \|$", page.read_text("utf-8"), re.M):

@@ -199,7 +199,7 @@ def test_a_master_that_has_ended_is_forgotten_and_one_that_begins_is_heard(
         late.join()
 
 
-def test_every_diagnosis_tells_of_the_bus_itself() -> None:
+def test_every_diagnosis_reports_the_bus_itself() -> None:
     monitor = BusMonitor()
     assert monitor.describe(0) == "nothing at all"
     monitor(can.Message(is_error_frame=True))
@@ -217,7 +217,7 @@ def test_a_request_that_a_bus_brings_back_is_no_traffic() -> None:
     assert monitor.advice(5, 0)[0] == "the bit rate of interface and drives"
 
 
-def test_two_nodes_of_one_id_are_told(bus: drives.DriveBus, open_bus: Open) -> None:
+def test_two_nodes_of_one_id_are_reported(bus: drives.DriveBus, open_bus: Open) -> None:
     """A second node answers what the first one has answered already."""
     drive, twin = bus.drive(1), open_bus()
     drive.number("statusword")

@@ -172,7 +172,7 @@ def test_a_name_of_ours_is_not_that_of_a_sheet() -> None:
         assert drive.object("Home").index == 0x2001
 
 
-def test_a_sheet_of_another_maker_is_told() -> None:
+def test_a_sheet_of_another_maker_is_reported() -> None:
     simulated = _core.SimulatedDrive(node=1, sheet=read("elmo").rows(1))
     other = r"by vendor 0x9A, and tmcm\.eds is for vendor 0x286"
     with (

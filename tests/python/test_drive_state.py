@@ -25,7 +25,7 @@ def test_only_the_bits_of_the_state_count(word: int, state: State, others: int) 
 
 
 @given(word=st.integers(0, 0xFFFF))
-def test_every_statusword_tells_one_state_or_is_refused(word: int) -> None:
+def test_every_statusword_has_one_state_or_is_refused(word: int) -> None:
     fitting = [s for w, s in zip(WORDS, State, strict=True) if word & 0x6F in (w, w | 0x20)]
     try:
         assert State.of(word) in fitting
@@ -34,7 +34,7 @@ def test_every_statusword_tells_one_state_or_is_refused(word: int) -> None:
         assert word & 0x4F in (*range(1, 8), *range(9, 15), *range(0x41, 0x50))
 
 
-def test_a_statusword_that_tells_nothing_is_refused() -> None:
+def test_a_statusword_without_a_state_is_refused() -> None:
     with pytest.raises(ValueError, match="statusword = 0x0002"):
         State.of(0x0002)
 

@@ -153,7 +153,7 @@ def test_one_that_is_killed_in_contact_fades_and_the_run_goes_on_and_says_so(roo
 
 
 @pytest.mark.slow
-def test_one_that_never_posts_is_told(room: Path) -> None:
+def test_one_that_never_posts_is_reported(room: Path) -> None:
     done = here(room, words(written(room, SILENT)))
     assert done.exit_code == 1, done.stderr
     assert "the engine has posted nothing so far: no force is rendered" in done.stderr

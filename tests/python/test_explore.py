@@ -60,7 +60,7 @@ def test_packing_loses_no_bit(values: Any) -> None:
     assert np.ascontiguousarray(planes.T).tobytes() == values.tobytes()
 
 
-def test_a_steady_clock_is_told_from_one_that_jitters() -> None:
+def test_a_steady_clock_is_distinguished_from_one_that_jitters() -> None:
     assert even(np.arange(10_000) * 1e-3 + 5)
     jittered = ebac.simulate(ebac.Scenario(jitter=0.2, seconds=0.5), "ebac")
     assert not even(jittered["t"])
@@ -100,12 +100,12 @@ def test_an_axis_has_room_for_its_label(minute: ebac.Trace) -> None:
         ([[]], ValueError, "a panel without a column"),
     ],
 )
-def test_bad_columns_are_told(minute: ebac.Trace, groups: Any, kind: Any, message: str) -> None:
+def test_bad_columns_are_reported(minute: ebac.Trace, groups: Any, kind: Any, message: str) -> None:
     with pytest.raises(kind, match=message):
         minute.explore(*groups)
 
 
-def test_a_wrong_axis_and_an_empty_trace_are_told(minute: ebac.Trace) -> None:
+def test_a_wrong_axis_and_an_empty_trace_are_reported(minute: ebac.Trace) -> None:
     with pytest.raises(ValueError, match="axis = 1: must lie in"):
         minute.explore(axis=1)
     with pytest.raises(ValueError, match="the trace has 0 rows"):

@@ -222,7 +222,7 @@ def test_what_is_felt_is_what_the_model_meets(tmp_path: Path) -> None:
 @LINUX
 @pytest.mark.slow
 @pytest.mark.real_time
-def test_a_cut_link_is_held_faded_told_and_resumed(tmp_path: Path) -> None:
+def test_a_cut_link_is_held_faded_reported_and_resumed(tmp_path: Path) -> None:
     pair = Pair(tmp_path, seconds=6.0)
     pair.run(1.5)
     pair.network.cut(True)
@@ -260,7 +260,7 @@ def test_a_link_that_stays_away_ends_both_with_drives_at_rest(tmp_path: Path) ->
 @pytest.mark.slow
 @pytest.mark.real_time
 @pytest.mark.parametrize("group", [0, 1])
-def test_a_drive_in_fault_stops_the_slave_and_is_told(tmp_path: Path, group: int) -> None:
+def test_a_drive_in_fault_stops_the_slave_and_is_reported(tmp_path: Path, group: int) -> None:
     pair = Pair(tmp_path, seconds=60.0)
     pair.run(1.0)
     backend = pair.devices[group].backend

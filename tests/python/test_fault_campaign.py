@@ -34,7 +34,7 @@ def test_a_seed_gives_the_same_on_any_number_of_threads() -> None:
 
 
 @pytest.mark.parametrize("kind", ["silent_node", "nan_law", "encoder_jump", "overruns"])
-def test_a_case_tells_its_story(kind: str) -> None:
+def test_a_case_describes_itself(kind: str) -> None:
     index = list(faults.kinds()).index(kind)
     indices = range(index, KINDS * 12, KINDS)
     cases = [faults.run_case(i, seed=2) for i in indices]

@@ -363,7 +363,7 @@ def lab(shade: str, eye: str) -> NDArray[np.float64]:
 
 
 @pytest.mark.parametrize("eye", list(EYES))
-def test_every_eye_tells_the_laws_apart(eye: str) -> None:
+def test_every_eye_distinguishes_the_laws(eye: str) -> None:
     for one, other in itertools.combinations([*COLOURS.values(), *OTHER_LAWS], 2):
         assert np.linalg.norm(lab(one, eye) - lab(other, eye)) > 15
     for one, other in itertools.combinations((BETTER, WORSE, SAME), 2):

@@ -74,7 +74,7 @@ def test_weight_either_way_is_carried(gravity: float) -> None:
     assert speed < 0.1 * weight / 2.0  # of what the weight alone comes to against 2 N s/m
 
 
-def test_the_hand_alone_tells_where_no_motor_acts(trace: ebac.Trace) -> None:
+def test_the_hand_alone_determines_where_no_motor_acts(trace: ebac.Trace) -> None:
     scenario = trace.scenario.replace(environment=ebac.Free())
     r = Recording.from_trace(ebac.simulate(scenario, "direct"))
     found = fit_device(Recording(name="log", t=r.t, x=r.x, force=r.force, count=r.count, lag=r.lag))
@@ -119,7 +119,7 @@ def test_a_figure_says_whether_the_log_is_simulated(tmp_path: Path, trace: ebac.
     assert "recorded, smoothed" in [text.get_text() for text in figure.axes[1].get_legend().texts]
 
 
-def test_a_friction_that_falls_with_speed_is_told() -> None:
+def test_a_friction_that_falls_with_speed_is_reported() -> None:
     found = fit_device(Recording.from_trace(moved(breakaway=0.9, stribeck_speed=0.02)))
     assert found.stribeck_speed is not None
     assert found.estimates["stribeck"].value == pytest.approx(0.5, rel=0.4)

@@ -210,7 +210,7 @@ def test_columns_of_text_are_left_out_with_a_note(tmp_path: Path, kind: str) -> 
         load(path, columns={"force": "comment"})
 
 
-def test_a_unit_that_its_heading_contradicts_is_told(tmp_path: Path) -> None:
+def test_a_unit_that_its_heading_contradicts_is_reported(tmp_path: Path) -> None:
     signals = zip(T, X, F, strict=True)
     path = tmp_path / "log.csv"
     rows = (f"{t:.6g},{1e3 * x:.6g},{f:.6g}" for t, x, f in signals)
@@ -221,7 +221,7 @@ def test_a_unit_that_its_heading_contradicts_is_told(tmp_path: Path) -> None:
     assert not any("as asked" in remark for remark in load(path, units={"x": "mm"}).remarks)
 
 
-def test_a_rate_that_the_time_contradicts_is_told(tmp_path: Path) -> None:
+def test_a_rate_that_the_time_contradicts_is_reported(tmp_path: Path) -> None:
     path = tmp_path / "log.csv"
     signals = zip(T, X, F, strict=True)
     rows = (f"{t:.6g},{x:.9g},{f:.6g}" for t, x, f in signals)

@@ -161,7 +161,7 @@ def test_the_second_derivative_is_that_of_the_same_kernel(hertz: float) -> None:
     ("mass", "together", "lost"),
     [(5e-3, 0.9, True), (5e-3, 0.5, False), (1e-3, 0.5, True), (0.2, 0.9, False)],
 )
-def test_a_hand_faster_than_rows_is_believed_only_when_told_apart(
+def test_a_hand_faster_than_rows_is_believed_only_when_distinguished(
     mass: float, together: float, lost: bool
 ) -> None:
     """A finger that taps is; one at the least mass there is, or whose mass and damping move together, is not."""

@@ -75,7 +75,7 @@ def test_a_position_ten_rows_late_is_named(pushed: Recording) -> None:
 
 @pytest.mark.slow
 @pytest.mark.weekly
-def test_a_filter_is_told_from_a_delay(pushed: Recording) -> None:
+def test_a_filter_is_distinguished_from_a_delay(pushed: Recording) -> None:
     recording = replace(pushed, force=filtered(force_of(pushed), 2e-3))
     result = identify.fit_arm(recording)
     assert result.late is not None

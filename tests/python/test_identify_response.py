@@ -85,7 +85,7 @@ def test_too_short_or_without_force_is_refused() -> None:
 # --- does a log excite what is asked of it ---
 
 
-def test_a_rich_log_tells_all(trace: ebac.Trace, recording: Recording) -> None:
+def test_a_rich_log_determines_all(trace: ebac.Trace, recording: Recording) -> None:
     found = check_log(recording, Target.of(trace.scenario.hand, recording.t))
     assert all(row["told"] for row in found.rows())
     low, high = found.bands[0][0], found.bands[-1][1]
@@ -93,7 +93,7 @@ def test_a_rich_log_tells_all(trace: ebac.Trace, recording: Recording) -> None:
     assert high >= 6
 
 
-def test_a_hand_that_meets_nothing_tells_nothing() -> None:
+def test_a_hand_that_meets_nothing_determines_nothing() -> None:
     scenario = ebac.Scenario(environment=ebac.Free(), seconds=3.0)
     found = check_log(Recording.from_trace(ebac.simulate(scenario, "direct")))
     assert not any(row["told"] for row in found.rows())
@@ -111,7 +111,7 @@ def perturbed(mass: float = 0.3, damping: float = 7.0, stiffness: float = 400.0)
     return Recording(name="perturbed", t=t, x=x, force=force + 0.03 * draw.standard_normal(len(t)))
 
 
-def test_a_perturbation_tells_of_a_hand_that_rests() -> None:
+def test_a_perturbation_reports_a_hand_that_rests() -> None:
     found = check_log(perturbed())
     assert all(row["told"] for row in found.rows())
     assert max(found.deviation.values()) < 0.05
@@ -119,7 +119,7 @@ def test_a_perturbation_tells_of_a_hand_that_rests() -> None:
 
 
 @pytest.mark.parametrize("stiffness", [400.0, 2.0])
-def test_a_perturbation_tells_what_it_reaches(stiffness: float) -> None:
+def test_a_perturbation_shows_what_it_reaches(stiffness: float) -> None:
     """Beside 0.3 kg and 7 N s/m, 2 N/m are lost in noise of a third of their force at 1 cm."""
     found = check_log(perturbed(stiffness=stiffness))
     assert found.determines("M0")

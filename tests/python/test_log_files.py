@@ -345,7 +345,7 @@ def recorded(tmp_path: Path) -> Path:
     return path
 
 
-def test_info_tells_what_is_in_a_log(recorded: Path) -> None:
+def test_info_says_what_is_in_a_log(recorded: Path) -> None:
     told = json.loads(invoke("info", recorded, "--json"))
     assert told["command"] == "log info"
     assert (told["complete"], told["log_rows"], told["lost_rows"]) == (True, 200, 1)

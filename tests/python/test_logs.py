@@ -243,7 +243,7 @@ def test_message_indexes_point_at_their_messages(trace: ebac.Trace, tmp_path: Pa
     assert seen == len(trace) + 1
 
 
-def test_every_field_tells_its_unit_and_its_meaning(trace: ebac.Trace, tmp_path: Path) -> None:
+def test_every_field_has_its_unit_and_its_meaning(trace: ebac.Trace, tmp_path: Path) -> None:
     text = Layout.of({n: trace[n] for n in trace}, trace.columns).ros2msg()
     lines = [line for line in text.splitlines() if not line.startswith("#")]
     assert len(lines) == len(list(trace))
@@ -556,7 +556,7 @@ def test_a_recorder_asks_for_events(tmp_path: Path) -> None:
     assert read(tmp_path / "run.mcap").events == told
 
 
-def test_a_watch_that_raises_ends_the_recording_and_is_told(tmp_path: Path) -> None:
+def test_a_watch_that_raises_ends_the_recording_and_is_reported(tmp_path: Path) -> None:
     def broken() -> list[Event]:
         raise RuntimeError("no answer")
 
@@ -585,7 +585,7 @@ def wait_until(true: Callable[[], bool]) -> None:
         time.sleep(0.001)
 
 
-def test_rows_a_ring_has_written_over_are_counted_and_told(tmp_path: Path) -> None:
+def test_rows_a_ring_has_written_over_are_counted_and_reported(tmp_path: Path) -> None:
     source = rows_of()
     rows = source.empty_like(100, ring=True)
     recorder = Recorder(rows, tmp_path / "run.mcap", interval=10)
@@ -636,7 +636,7 @@ recorder.close()
 """
 
 
-def test_a_file_that_takes_no_more_ends_the_recording_and_is_told(tmp_path: Path) -> None:
+def test_a_file_that_takes_no_more_ends_the_recording_and_is_reported(tmp_path: Path) -> None:
     path = tmp_path / "run.mcap"
     done = subprocess.run(
         [sys.executable, "-c", FULL, str(path)], check=False, capture_output=True, text=True

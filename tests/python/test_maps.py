@@ -289,7 +289,7 @@ def command(*words: str, code: int = 0) -> str:
     return result.output if code else result.stdout
 
 
-def test_the_command_tells_a_row_per_law() -> None:
+def test_the_command_prints_a_row_per_law() -> None:
     told = json.loads(command("Kd", "-l", "direct", "-l", "eba", "--side", "4", "--json"))
     assert [row["law"] for row in told["rows"]] == ["direct", "eba"]
     assert told["rows"][0]["x"] == "delay"

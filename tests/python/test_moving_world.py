@@ -22,7 +22,7 @@ def worlds_work(trace: ebac.Trace, delay: int) -> np.ndarray:
     return -np.cumsum(given * trace["world_v"] * trace["dt"])
 
 
-def test_the_wall_is_felt_where_it_is_and_tells_how_it_moves() -> None:
+def test_the_wall_is_felt_where_it_is_and_says_how_it_moves() -> None:
     trace = ebac.simulate(OBSERVED.replace(seconds=1.0, observer=False), "direct")
     wall, inside = MOVING, trace["f_env"] > 0
     assert trace["f_env"][inside] == pytest.approx(

@@ -122,7 +122,7 @@ def test_a_run_names_its_share_and_what_it_fell_back_to() -> None:
     assert plain == ebac.ObserverUse(trusted=0.0, fallback={"off": 1.0})
 
 
-def test_the_command_turns_it_on_tells_of_it_and_logs_it(tmp_path: Path) -> None:
+def test_the_command_turns_it_on_reports_it_and_logs_it(tmp_path: Path) -> None:
     run = ["run", str(EXAMPLE), "--virtual", "--seconds", "1.5"]
     done = CliRunner().invoke(app, [*run, "--observer", "--json", "--out", str(tmp_path)])
     assert done.exit_code == 0, done.output

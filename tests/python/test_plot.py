@@ -223,7 +223,7 @@ def test_walls_shows_every_law_and_the_ideal(run: Run) -> None:
     assert {colour("tca"), colour("eba"), colour("ebac")} <= shown
 
 
-def test_walls_tell_variants_of_a_law_apart(run: Run) -> None:
+def test_walls_distinguish_variants_of_a_law(run: Run) -> None:
     scenario = ebac.Scenario(seconds=1.0)
     variant = ebac.simulate(scenario, ebac.Variant("tca-damped", {"kp": 0.0}))
     runs = [run("tca-damped", seconds=1.0), variant]
@@ -373,7 +373,7 @@ def test_a_law_that_does_not_limit_beta_says_so_where_beta_would_stand() -> None
         assert "does not limit" not in ebac.simulate(scenario, other).plot().get_suptitle()
 
 
-def test_changes_of_a_run_are_marked_and_told(run: Run) -> None:
+def test_changes_of_a_run_are_marked_and_reported(run: Run) -> None:
     events = [
         ebac.logs.Event(kind=kind, message=message, tick=400, t=0.4)
         for kind, message in (

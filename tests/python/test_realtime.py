@@ -51,7 +51,7 @@ def test_bad_input_is_refused(given: dict[str, float], words: str) -> None:
         realtime.RealTime(priority=0)
 
 
-def test_enforce_tells_what_is_missing() -> None:
+def test_enforce_says_what_is_missing() -> None:
     wanted = realtime.RealTime(cpu=1023)
     with pytest.raises(RuntimeError, match="CPU 1023 was not granted"):
         realtime.measure(seconds=0.1, mode="enforce", options=wanted)

@@ -168,7 +168,7 @@ def bare_run(**parts: Any) -> tuple[Run, list[bool]]:
     return run, asked
 
 
-def test_a_drive_that_keeps_its_power_is_told() -> None:
+def test_a_drive_that_keeps_its_power_is_reported() -> None:
     def fail() -> list[str]:
         raise drives.DriveError("node 2 has power")
 

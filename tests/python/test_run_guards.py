@@ -57,7 +57,7 @@ def test_a_simulated_sensor_names_its_own_page() -> None:
     assert SimulatedSensor().config.http_port == 0  # it has none
 
 
-def test_a_sensor_without_its_page_is_told() -> None:
+def test_a_sensor_without_its_page_is_reported() -> None:
     with pytest.warns(UserWarning, match=r"not compared .*http_port = 0"):
         SensorConfig(host="127.0.0.1", http_port=9).check_scale()
 

@@ -109,7 +109,7 @@ def test_a_run_prints_what_it_ran_with() -> None:
     assert "a wall of 5 kN/m at 10 mm 1 kHz, 1 sample of delay 1 s, seed 1" in text
 
 
-def test_a_virtual_run_tells_that_its_clock_is_virtual() -> None:
+def test_a_virtual_run_says_that_its_clock_is_virtual() -> None:
     done = CliRunner().invoke(app, [*RUN, "--no-files"])
     assert "on a virtual clock: every tick in time" in " ".join(done.stdout.split())
 

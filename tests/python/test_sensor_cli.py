@@ -54,7 +54,7 @@ PAGE = (
 )
 
 
-def test_a_page_tells_what_counts_are_worth(simulated: SimulatedSensor) -> None:
+def test_a_page_says_what_counts_are_worth(simulated: SimulatedSensor) -> None:
     assert simulated.http_address is not None
     host, port = simulated.http_address
     page = read_page(host, http_port=port)
@@ -263,14 +263,14 @@ def test_bias_takes_no_load_without_being_told(tmp_path: Path) -> None:
         (["simulate", "--load", "1e9"], 2, "--load = 1e+09 N"),
     ],
 )
-def test_bad_input_is_told(words: list[str], code: int, message: str) -> None:
+def test_bad_input_is_reported(words: list[str], code: int, message: str) -> None:
     got, out, err = run(*words)
     assert got == code, err
     assert out == ""
     assert message in err
 
 
-def test_nobody_there_is_told() -> None:
+def test_nobody_there_is_reported() -> None:
     with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as taken:
         taken.bind(("127.0.0.1", 0))
         port = str(taken.getsockname()[1])
@@ -279,7 +279,7 @@ def test_nobody_there_is_told() -> None:
     assert "no answer; check its power and cable" in err
 
 
-def test_a_file_without_a_sensor_is_told(tmp_path: Path) -> None:
+def test_a_file_without_a_sensor_is_reported(tmp_path: Path) -> None:
     file = tmp_path / "a.toml"
     for text, message in (
         ("", "has no table [sensor]"),

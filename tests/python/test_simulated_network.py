@@ -269,7 +269,7 @@ def test_a_drive_of_a_known_maker_names_its_profile(tmp_path: Path) -> None:
     assert caught.value.__notes__ == ["Its maker is maxon: see the profile maxon-epos4"]
 
 
-def test_what_is_missing_is_told_by_a_drive_that_does_not_tell_its_maker() -> None:
+def test_what_is_missing_is_named_by_a_drive_that_does_not_name_its_maker() -> None:
     rows = drives.parse_eds(sheet("epos4"), name="epos4.eds").rows(1)
     secret = [(*r[:2], "wo", *r[3:]) if r[:2] == (0x1018, 1) else r for r in rows]
     (node,) = drives.load("copley-accelnet", nodes=[1]).nodes
@@ -283,7 +283,7 @@ def test_what_is_missing_is_told_by_a_drive_that_does_not_tell_its_maker() -> No
 # --- the commands ---
 
 
-def test_simulate_tells_which_drives_it_understood(own: Path) -> None:
+def test_simulate_says_which_drives_it_understood(own: Path) -> None:
     bus = ["--interface", "virtual", "--channel", "own", "--seconds", "0.1"]
     result = command("simulate", own, *bus)
     assert result.exit_code == 0, result.output

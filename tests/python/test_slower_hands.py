@@ -83,6 +83,6 @@ def test_the_command_names_the_rate() -> None:
     assert "--pull-rate = 0 N/s: must lie in [1, 1e+09] N/s" in " ".join(refused.output.split())
 
 
-def test_without_a_rate_none_is_told() -> None:
+def test_without_a_rate_none_is_reported() -> None:
     found = worst(family=["impact"], evaluations=40)
     assert found.pull_rate is None

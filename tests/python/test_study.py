@@ -270,7 +270,9 @@ def test_a_study_can_be_drawn(few: Study) -> None:
     assert titles == ["0 of 3 good", "3 of 3 good"]
 
 
-def test_the_overview_tells_a_still_hand_that_clicks_from_one_that_swings(few: Study) -> None:
+def test_the_overview_distinguishes_a_still_hand_that_clicks_from_one_that_swings(
+    few: Study,
+) -> None:
     from ebac.plot import plot_study
 
     table = next(plot_study(few))[1].axes[0]
@@ -467,7 +469,7 @@ def test_the_seed_of_the_base_is_that_of_the_study() -> None:
     assert drawn(2, 1) == drawn(1)
 
 
-def test_hands_that_never_reach_the_wall_are_told_of() -> None:
+def test_hands_that_never_reach_the_wall_are_reported() -> None:
     pytest.importorskip("pandas")
     hands = ebac.Operators.sample(4, 1)
     table = hands.to_pandas()

@@ -178,7 +178,7 @@ def test_a_class_in_python_is_designed_for_each_scenario() -> None:
     )
 
 
-def test_a_finished_law_for_another_sample_time_is_told() -> None:
+def test_a_finished_law_for_another_sample_time_is_reported() -> None:
     fast = scenarios(1)[0].replace(timing=ebac.Timing(dt=5e-4))
     with pytest.warns(UserWarning, match="eba is made for dt = 0.001 s and runs at 0.0005 s"):
         ebac.simulate(fast, ebac.EBA())
@@ -405,7 +405,7 @@ def test_a_law_whose_code_was_edited_is_another_law(
 # --- the result ---
 
 
-def test_scenarios_with_and_without_the_observer_are_told_apart() -> None:
+def test_scenarios_with_and_without_the_observer_are_distinguished() -> None:
     bare = scenarios(1, seconds=0.1)[0].replace(observer=False)
     designed = bare.replace(observer=ebac.Observer(force_noise=0.1))
     given = [bare, bare.replace(observer=True), designed, bare.replace(observer="every-law")]

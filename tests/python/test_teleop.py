@@ -189,7 +189,7 @@ def test_the_same_seed_gives_the_same_bits_as_ever() -> None:
 
 
 @pytest.mark.parametrize("name", list(teleop.SCHEMES))
-def test_a_lost_link_is_held_faded_and_told(name: str) -> None:
+def test_a_lost_link_is_held_faded_and_reported(name: str) -> None:
     link = Link(delay=0.02, cut_every=4, cut_length=1)
     run = teleop.simulate(name, there=link, seconds=6, slave=SlaveModel(contact_stiffness=100))
     lost = run["master_state"] >= 2

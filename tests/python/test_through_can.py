@@ -107,7 +107,7 @@ def trace() -> ebac.Trace:
     return ebac.simulate(ebac.Scenario(seconds=1), "ebac", through="can")
 
 
-def test_the_row_tells_of_the_bus(trace: ebac.Trace) -> None:
+def test_the_row_reports_the_bus(trace: ebac.Trace) -> None:
     assert (trace["bus.statusword"] & 0x6F == 0x27).all()
     assert (trace["bus.controlword"] == 0x0F).all()
     assert (trace["bus.age"] == 0).all()
@@ -237,7 +237,7 @@ def test_the_command_names_its_option() -> None:
     assert "--through usb: must be can, or left out" in " ".join(result.output.split())
 
 
-def test_the_command_tells_of_a_full_bus() -> None:
+def test_the_command_reports_a_full_bus() -> None:
     result = CliRunner().invoke(
         app,
         ["wall", "--no-files", "--through", "can", "--rate", "3000", "--seconds", "0.1"],

@@ -287,7 +287,7 @@ def test_the_doctor_compares_both_times(tmp_path: Path, share: float, verdict: s
     assert ("answer_share" in (row["remedy"] or "")) == (verdict != "good")
 
 
-def test_the_doctor_tells_that_a_run_replaces_the_sync_period_of_a_profile(tmp_path: Path) -> None:
+def test_the_doctor_says_that_a_run_replaces_the_sync_period_of_a_profile(tmp_path: Path) -> None:
     def periods(setup: str, dt: str) -> tuple[list[dict[str, str]], str]:
         file = tmp_path / "joystick.toml"
         text = EXAMPLE.read_text().replace("dt = 1e-3", f"dt = {dt}", 1)

@@ -300,7 +300,7 @@ def test_repr_says_law_rows_and_time(run: Any) -> None:
     assert repr(trace) == "<Trace of eba: 1001 rows, 0 to 1 s, 1 axis>"
 
 
-def test_a_trace_tells_what_made_it(run: Any) -> None:
+def test_a_trace_says_what_made_it(run: Any) -> None:
     trace = run("eba", seconds=1.0)
     assert trace.scenario == ebac.Scenario(seconds=1.0)
     assert trace.law == "eba"

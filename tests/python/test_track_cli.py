@@ -147,7 +147,7 @@ def write_space(name: str, path: Any) -> None:
     Path(name).write_text(f"x [mm],y [mm],z [mm]\n{rows}\n")
 
 
-def test_a_ring_that_leaves_its_plane_is_told() -> None:
+def test_a_ring_that_leaves_its_plane_is_reported() -> None:
     write_space("bent.csv", ring(2e-3))
     (row,) = json.loads(ebac_command("bent.csv", "--json").stdout)["rows"]
     assert row["out_of_plane_rms_m"] == pytest.approx(2e-3 / np.sqrt(2), rel=1e-3)

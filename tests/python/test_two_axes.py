@@ -448,7 +448,7 @@ def test_a_hand_that_traces_a_disc_keeps_it(
 
 
 @every_device
-def test_a_moving_body_tells_no_speed_far_above_its_own(device: str) -> None:
+def test_a_moving_body_says_no_speed_far_above_its_own(device: str) -> None:
     """A direction nearly out of the reach of a gimbal once made 47 m/s of 0.15 m/s."""
     motion = Swing(amplitude_x=-0.0074, amplitude_y=-0.0072, frequency=2.29)
     ball = Body(

@@ -507,7 +507,7 @@ def test_a_value_that_cannot_be_is_refused_by_name(
 
 
 @pytest.mark.parametrize("load", [ebac.load, ebac.Scenario.load])
-def test_a_file_that_is_not_there_is_told_as_the_command_tells_it(
+def test_a_file_that_is_not_there_is_told_as_the_command_says_it(
     load: Callable[[Path], object], tmp_path: Path
 ) -> None:
     with pytest.raises(FileNotFoundError, match=r"there is no such file: .*none\.npz"):

@@ -442,7 +442,7 @@ def command(*words: str, code: int = 0) -> str:
 SMALL = ("--law", "direct", "--delay", "1", "--points", "2", "--seconds", "1")
 
 
-def test_the_command_tells_rows_and_scores() -> None:
+def test_the_command_says_rows_and_scores() -> None:
     told = json.loads(command(*SMALL, "--json"))
     assert [row["damping_Ns_per_m"] for row in told["rows"]] == [0, 20]
     assert told["scores"][0]["quiet_times_direct"] == 1
