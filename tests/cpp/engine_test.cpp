@@ -1,6 +1,7 @@
 // The bridge to an engine: its mailbox between two threads, its answers in simulated time, blending and ageing.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <thread>
 
@@ -106,6 +107,29 @@ TEST(BlendedModel, ASurfaceThatIsToldTooLateComesOutAtItsSpeed) {
   for (int i = 1; i <= 20; ++i) surface.advance(at(0.005), i * kDt, kDt);
   EXPECT_NEAR(surface.meet(at(0.005)).depth, 0.002, 1e-9);
   EXPECT_NEAR(surface.given(), 0.5 * 1000 * 0.002 * 0.002, 1e-9);
+}
+
+/// A surface that moved when the engine last saw it: that nothing is there any more moves no force at once either.
+TEST(BlendedModel, AMovingSurfaceThatIsGoneDoesNotJump) {
+  for (const double speed : {0.4, -0.4}) {
+    BlendedModel surface({.blend = 1e-3, .slew = 0.1});
+    LocalModel moving = plane(0, 10e3);
+    moving.velocity = {speed, 0, 0};
+    const auto push_at = [&](int tick) {
+      const Axes x = at(speed * std::min(tick, 49) * kDt + 0.01);
+      surface.advance(x, tick * kDt, kDt);
+      return surface.meet(x).push;
+    };
+    surface.receive(moving, at(-0.01), 0);
+    double before = push_at(0);
+    for (int i = 1; i <= 100; ++i) {
+      if (i >= 50 && i % 10 == 0) surface.receive({.t = (i - 5) * kDt}, at(0), (i - 1) * kDt);
+      const double now = push_at(i);
+      ASSERT_LE(std::abs(now - before), 10e3 * 0.1 * kDt + 1e-9) << speed << " " << i;
+      before = now;
+    }
+    EXPECT_NEAR(before, 100 - 51, 1e-6);  // it stands, and goes at `slew`
+  }
 }
 
 TEST(BlendedModel, ForceFadesWithAgeAndComesBack) {

@@ -67,7 +67,10 @@ class BlendedModel {
   void receive(const LocalModel& model, const Axes& x, double t) EBAC_RT {
     const Surface old = at(x);
     if (!model.surface) {
-      target_.t = model.t;  // as old as this; what was there goes away at `slew`
+      target_.t = model.t;  // as old as this; what was there stands, and goes away at `slew`
+      target_.at += since_ * target_.velocity;
+      rest_.velocity += target_.velocity;
+      target_.velocity = Axes::Zero();
       leaving_ = true;
       return;
     }
