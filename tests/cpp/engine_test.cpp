@@ -2,7 +2,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <thread>
 
 #include "ebac/world/engine/bridge.hpp"
@@ -197,6 +199,71 @@ TEST(EngineChannel, AnAnswerToAnEarlierRunIsNotTaken) {
   EXPECT_EQ(bridge->contact(at(0.002), kStill, 0).force.norm(), 0);
   EXPECT_EQ(bridge->contact(at(0.002), kStill, 0.1).force.norm(), 0);
   EXPECT_EQ(bridge->report().models(), 0);
+}
+
+/// What `bridge` makes of an answer whose bytes were damaged on the way [N].
+template <class Damage>
+double force_of_damaged(Damage damage) {
+  const auto mail = std::make_shared<EngineMail>();
+  const auto bridge = make_posted(std::make_shared<EngineChannel>(mail), {});
+  bridge->contact(at(0), kStill, 0);
+  Answer answer{.model = plane(0, 1000)};
+  damage(answer);
+  mail->models.post(answer);
+  bridge->contact(at(-0.001), kStill, kDt);
+  return bridge->contact(at(0.002), kStill, 2 * kDt).force.norm();
+}
+
+TEST(EngineChannel, ADamagedAnswerIsNoForceButAFault) {
+  EXPECT_NEAR(force_of_damaged([](Answer&) {}), 2, 1e-12);
+  using Change = void (*)(LocalModel&);
+  const std::array<Change, 12> changes{
+      [](LocalModel& m) { m.stiffness = 1e9; },
+      [](LocalModel& m) { m.stiffness = -1; },
+      [](LocalModel& m) { m.stiffness = NAN; },
+      [](LocalModel& m) { m.damping = 1e5; },
+      [](LocalModel& m) { m.damping = -1; },
+      [](LocalModel& m) { m.into = {1e3, 0, 0}; },
+      [](LocalModel& m) { m.into = kStill; },
+      [](LocalModel& m) { m.at[1] = 1e6; },
+      [](LocalModel& m) { m.velocity[2] = -1e3; },
+      [](LocalModel& m) { m.curvature = 1e300; },
+      [](LocalModel& m) { m.t = NAN; },
+      [](LocalModel& m) { m.t = -INFINITY; },
+  };
+  for (std::size_t i = 0; i < changes.size(); ++i) {
+    const double force = force_of_damaged([&](Answer& answer) { changes[i](answer.model); });
+    EXPECT_TRUE(std::isnan(force)) << i << " " << force;
+  }
+}
+
+/// A byte that is neither true nor false may become anything, also both.
+TEST(EngineChannel, AnyByteIsASurfaceOrNone) {
+  constexpr unsigned char kNeither = 0xFE;
+  const auto mail = std::make_shared<EngineMail>();
+  const auto bridge = make_posted(std::make_shared<EngineChannel>(mail), {});
+  bridge->contact(at(-0.001), kStill, 0);
+  mail->models.post({.model = plane(0, 1000)});
+  auto* first_slot = reinterpret_cast<unsigned char*>(&mail->models);
+  unsigned char& surface = first_slot[offsetof(Answer, model) + offsetof(LocalModel, surface)];
+  ASSERT_EQ(surface, 1);
+  surface = kNeither;
+  bridge->contact(at(-0.001), kStill, kDt);
+  EXPECT_NEAR(bridge->contact(at(0.002), kStill, 2 * kDt).force.norm(), 2, 1e-12);
+}
+
+/// The slot of an answer is the loop's only by agreement.
+TEST(EngineChannel, AnAnswerThatIsWrittenOverIsTheOneThatWasChecked) {
+  const auto mail = std::make_shared<EngineMail>();
+  PostedModels models(std::make_shared<EngineChannel>(mail));
+  mail->models.post({.model = plane(0, 1000)});
+  const Answer* taken = models.take(at(0), kStill, 0);
+  ASSERT_NE(taken, nullptr);
+  for (int i = 0; i < 3; ++i) {  // as an engine that has lost count of the slots
+    mail->models.post({.model = plane(0, 1e9)});
+    mail->models.take();
+  }
+  EXPECT_EQ(taken->model.stiffness, 1000);
 }
 
 TEST(EngineChannel, ThreadsMeetWithoutWaiting) {

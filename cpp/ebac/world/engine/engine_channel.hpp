@@ -1,6 +1,9 @@
 #pragma once
 
 #include <atomic>
+#include <cmath>
+#include <cstddef>
+#include <cstring>
 #include <memory>
 #include <utility>
 
@@ -55,6 +58,20 @@ class EngineChannel {
   std::atomic<const void*> owner_{nullptr};
 };
 
+/// A copy of what lies in memory that another process may write at any time: its `surface` is a bool whatever its byte is,
+/// and a model out of range has a stiffness that is no number, which the bridge makes a fault.
+inline Answer received(const Answer& shared) EBAC_RT {
+  Answer own;
+  std::memcpy(static_cast<void*>(&own), &shared, sizeof(own));
+  unsigned char surface = 0;
+  auto* flag = reinterpret_cast<unsigned char*>(&own) + offsetof(Answer, model) +
+               offsetof(LocalModel, surface);
+  std::memcpy(&surface, flag, 1);
+  own.model.surface = surface != 0;
+  if (!own.model.in_range()) own.model.stiffness = NAN;
+  return own;
+}
+
 /// Answers of an engine in a thread or a process of its own.
 class PostedModels {
  public:
@@ -66,13 +83,16 @@ class PostedModels {
   const Answer* take(const Axes& x, const Axes& v, double t) EBAC_RT {
     if (!channel_->claim(this)) return nullptr;
     channel_->tell({.x = x, .v = v, .t = t});
-    const Answer* answer = channel_->take();
+    const Answer* shared = channel_->take();
+    if (shared == nullptr) return nullptr;
+    answer_ = received(*shared);
     // One to a pose of an earlier run, whose time was later, would never grow old.
-    return answer == nullptr || answer->model.t > t ? nullptr : answer;
+    return answer_.model.t > t ? nullptr : &answer_;
   }
 
  private:
   std::shared_ptr<EngineChannel> channel_;
+  Answer answer_;  // the newest
 };
 
 }  // namespace ebac::world

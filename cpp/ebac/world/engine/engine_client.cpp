@@ -66,14 +66,15 @@ void check(const char* name, double value, const char* unit, double least, doubl
                               "]" + in);
 }
 
-/// The ranges of `ebac.worlds.LocalModel`.
 void check(const LocalModel& model) {
-  for (const double value : model.at) check("at", value, "m", -10, 10);
-  for (const double value : model.velocity) check("velocity", value, "m/s", -10, 10);
-  check("length of into", model.into.norm(), "", 1 - 1e-6, 1 + 1e-6);
-  check("curvature", model.curvature, "1/m", -1e4, 1e4);
-  check("stiffness", model.stiffness, "N/m", 0, 1e7);
-  check("damping", model.damping, "N s/m", 0, 1e4);
+  using M = LocalModel;
+  for (const double value : model.at) check("at", value, "m", -M::kFarthest, M::kFarthest);
+  for (const double value : model.velocity)
+    check("velocity", value, "m/s", -M::kFastest, M::kFastest);
+  check("length of into", model.into.norm(), "", 1 - M::kOffUnit, 1 + M::kOffUnit);
+  check("curvature", model.curvature, "1/m", -M::kMostCurvature, M::kMostCurvature);
+  check("stiffness", model.stiffness, "N/m", 0, M::kStiffest);
+  check("damping", model.damping, "N s/m", 0, M::kMostDamping);
 }
 
 }  // namespace

@@ -19,6 +19,21 @@ struct LocalModel {
   double t = 0;                  // s of the run: when the handle was where this was computed for
   bool surface = false;          // false: nothing near
 
+  // Ranges of what comes from another program: also those of `ebac.worlds.LocalModel`.
+  static constexpr double kFarthest = 10;        // m, along each axis
+  static constexpr double kFastest = 10;         // m/s, along each axis
+  static constexpr double kOffUnit = 1e-6;       // of the length of `into`
+  static constexpr double kMostCurvature = 1e4;  // 1/m
+  static constexpr double kStiffest = 1e7;       // N/m
+  static constexpr double kMostDamping = 1e4;    // N s/m
+
+  /// Whether all numbers are within these ranges.
+  bool in_range() const EBAC_RT {
+    return at.cwiseAbs().maxCoeff() <= kFarthest && velocity.cwiseAbs().maxCoeff() <= kFastest &&
+           std::abs(into.norm() - 1) <= kOffUnit && std::abs(curvature) <= kMostCurvature &&
+           stiffness >= 0 && stiffness <= kStiffest && damping >= 0 && damping <= kMostDamping &&
+           finite();
+  }
   /// Whether all numbers are.
   bool finite() const EBAC_RT {
     return std::isfinite(at.sum() + into.sum() + velocity.sum() + curvature + stiffness + damping +
