@@ -1,16 +1,24 @@
 // A loop in a thread of its own. No test asserts a deadline: the machine decides when it wakes.
 #include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <atomic>
+#include <cerrno>
 #include <chrono>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <system_error>
 #include <thread>
 
 #include "ebac/control/direct.hpp"
+#include "ebac/rt/awake_cpus.hpp"
 #include "ebac/rt/grants.hpp"
 #include "ebac/rt/jitter.hpp"
 #include "ebac/rt/loop_thread.hpp"
@@ -88,6 +96,64 @@ TEST(Thread, KeepsCpusAwakeOnlyWhereThatIsAsked) {
   };
   EXPECT_TRUE(asked(true));
   EXPECT_FALSE(asked(false));
+}
+
+/// A file of its own in place of the system's.
+class SleepFile {
+ public:
+  SleepFile() : path_(std::filesystem::temp_directory_path() / "ebac-rt-test-XXXXXX") {
+    std::string name = path_.string();
+    const int file = mkstemp(name.data());
+    if (file >= 0) close(file);
+    path_ = name;
+  }
+  ~SleepFile() { std::filesystem::remove(path_); }
+  SleepFile(const SleepFile&) = delete;
+  SleepFile& operator=(const SleepFile&) = delete;
+  SleepFile(SleepFile&&) = delete;
+  SleepFile& operator=(SleepFile&&) = delete;
+
+  const char* path() const { return path_.c_str(); }
+  /// Descriptors of this process that hold it.
+  int holders() const {
+    int found = 0;
+    for (const auto& one : std::filesystem::directory_iterator("/proc/self/fd")) {
+      std::error_code gone;
+      if (std::filesystem::read_symlink(one.path(), gone) == path_) ++found;
+    }
+    return found;
+  }
+
+ private:
+  std::filesystem::path path_;
+};
+
+TEST(AwakeCpus, HoldTheFileOnceHoweverOftenTheyAreAsked) {
+  const SleepFile file;
+  {
+    AwakeCpus awake(file.path());
+    for (int i = 0; i < 3; ++i) {
+      EXPECT_TRUE(awake.ask().granted);
+      EXPECT_EQ(file.holders(), 1);
+    }
+  }
+  EXPECT_EQ(file.holders(), 0);
+}
+
+TEST(AwakeCpus, ARequestThatWasWrittenInPartIsRefusedForThatReason) {
+  const SleepFile file;
+  AwakeCpus awake(file.path());
+  rlimit before{};
+  ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &before), 0);
+  rlimit two = before;
+  two.rlim_cur = 2;  // bytes, of the four
+  ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &two), 0);
+  errno = ENOENT;  // of something else, before
+  const Grant grant = awake.ask();
+  setrlimit(RLIMIT_FSIZE, &before);
+  EXPECT_FALSE(grant.granted);
+  EXPECT_EQ(grant.why.find(std::strerror(ENOENT)), std::string::npos) << grant.why;
+  EXPECT_EQ(file.holders(), 0) << "it asks for nothing and would hold the file";
 }
 
 TEST(Thread, EnforceRunsNothingWithoutItAll) {
