@@ -1,16 +1,19 @@
 // Nothing on the tick path allocates: counted by the program's own operator new.
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <cmath>
 #include <cstddef>
 #include <cstdlib>
 #include <new>
 #include <string>
+#include <thread>
 #include <tuple>
 #include <vector>
 
 #include "ebac/control/law_type.hpp"
 #include "ebac/control/laws.hpp"
+#include "ebac/rt/thread.hpp"
 #include "ebac/sensor/with_force_sensor.hpp"
 #include "ebac/sim/simulate.hpp"
 #include "ebac/simulated_drives/joystick.hpp"
@@ -20,10 +23,13 @@
 #include "through_udp.hpp"
 
 namespace {
-std::size_t allocations = 0;  // the tests have one thread
+std::size_t allocations = 0;  // of one thread, as most tests have
 std::size_t frees = 0;
+std::atomic<bool> others_get_none = false;  // no memory but for the first thread
+const std::thread::id first_thread = std::this_thread::get_id();
 
 void* counted(std::size_t size, std::size_t alignment) {
+  if (others_get_none && std::this_thread::get_id() != first_thread) throw std::bad_alloc();
   ++allocations;
   // aligned_alloc wants a whole multiple of the alignment.
   void* memory = std::aligned_alloc(alignment, (size + alignment) / alignment * alignment);
@@ -100,6 +106,20 @@ TEST(Counting, SeesAnAllocation) {
   const std::size_t before = allocations;
   const std::vector<double> some(10);
   EXPECT_EQ(allocations, before + 1);
+}
+
+/// It would end the process, and with it a loop that drives motors.
+TEST(Thread, WithoutMemoryForItsReportIsAnExceptionOfTheCaller) {
+  int runs = 0;
+  others_get_none = true;
+  try {
+    const rt::Thread thread(rt::Mode::kAuto, {.lock_memory = false}, [&] { ++runs; });
+    others_get_none = false;
+    ADD_FAILURE() << "it started";
+  } catch (const std::bad_alloc&) {
+    others_get_none = false;
+  }
+  EXPECT_EQ(runs, 0);
 }
 
 TYPED_TEST(Realtime, StepsOfALawDoNotAllocate) {

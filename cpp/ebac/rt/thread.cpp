@@ -1,5 +1,6 @@
 #include "ebac/rt/thread.hpp"
 
+#include <exception>
 #include <future>
 #include <stdexcept>
 #include <string>
@@ -60,14 +61,24 @@ void Thread::begin(Mode mode, const Options& options, std::function<void()> work
     thread_ = std::thread([mode, options, work = std::move(work), asking = std::move(asking),
                            start = go.get_future()]() mutable {
       AwakeCpus awake;  // as long as it works
-      Report own = mode == Mode::kOff ? Report{} : ask(options);
-      if (mode != Mode::kOff && options.stay_awake) own.grants.push_back(awake.ask());
-      asking.set_value(std::move(own));
+      try {
+        Report own = mode == Mode::kOff ? Report{} : ask(options);
+        if (mode != Mode::kOff && options.stay_awake) own.grants.push_back(awake.ask());
+        asking.set_value(std::move(own));
+      } catch (...) {  // as without memory: the caller gets it, or the process would end
+        return asking.set_exception(std::current_exception());
+      }
       if (start.get()) work();
     });
   }
-  Report own = asked.get();
-  for (Grant& grant : own.grants) report_.grants.push_back(std::move(grant));
+  try {
+    Report own = asked.get();
+    for (Grant& grant : own.grants) report_.grants.push_back(std::move(grant));
+  } catch (...) {
+    go.set_value(false);
+    thread_.join();
+    throw;
+  }
   const bool enough = mode != Mode::kEnforce || report_.complete();
   go.set_value(enough);
   if (enough) return;
