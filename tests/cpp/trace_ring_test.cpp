@@ -1,7 +1,9 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <cstdint>
 #include <cstring>
+#include <stdexcept>
 #include <thread>
 #include <vector>
 
@@ -69,6 +71,32 @@ TEST(TraceRing, AFixedTraceIsFullAndLosesNothing) {
   std::vector<std::byte> rows(3 * trace.row_bytes());
   EXPECT_EQ(trace.copy(0, rows), 0u);
   for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(said(trace, rows, i), static_cast<int>(i));
+}
+
+TEST(TraceRing, RowsThatAreNotThereAreNotRead) {
+  for (const bool ring : {false, true}) {
+    Trace trace = odd_trace(3, ring);
+    for (std::uint64_t n = 0; n < 2; ++n) append(trace, n);
+    const std::size_t row = trace.row_bytes();
+    std::vector<std::byte> rows(20 * row, std::byte{0xAB});
+    EXPECT_EQ(trace.copy(1, rows), 0u);
+    EXPECT_EQ(said(trace, rows, 0), 1);
+    EXPECT_EQ(rows[row], std::byte{0xAB}) << ring;
+    rows.assign(rows.size(), std::byte{0xAB});
+    EXPECT_EQ(trace.copy(1'000'000, rows), 0u);
+    EXPECT_EQ(trace.copy(SIZE_MAX - 1, rows), 0u);
+    EXPECT_EQ(rows[0], std::byte{0xAB}) << ring;
+    EXPECT_EQ(trace.sample(1).tick, 1);
+    EXPECT_EQ(trace.sample(1'000'000).tick, 0);
+  }
+}
+
+TEST(TraceRing, MoreRowsThanMemoryCanHaveAreRefused) {
+  for (const bool ring : {false, true}) {
+    for (const std::size_t rows : {SIZE_MAX, SIZE_MAX / 8 + 1, SIZE_MAX / 64 + 1}) {
+      EXPECT_THROW(odd_trace(rows, ring), std::length_error) << rows << " " << ring;
+    }
+  }
 }
 
 /// A reader beside a loop that never waits: each row it is given is whole and is the one it asked

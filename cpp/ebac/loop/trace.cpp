@@ -1,5 +1,7 @@
 #include "ebac/loop/trace.hpp"
 
+#include <stdexcept>
+
 namespace ebac {
 
 Trace::Trace(int axes) : axes_(axes) {
@@ -27,6 +29,7 @@ std::size_t Trace::add_block(const std::string& prefix, const FieldTable& table)
 
 void Trace::reserve(std::size_t rows, bool ring) {
   row_ = (row_ + sizeof(Word) - 1) / sizeof(Word) * sizeof(Word);
+  if (rows >= data_.max_size() / words()) throw std::length_error("Trace: too many rows");
   capacity_ = rows;
   ring_ = ring;
   data_.resize((ring ? rows + 1 : rows) * words());  // one more: the row that is being written

@@ -44,7 +44,7 @@ class Trace {
   /// Returns where it begins.
   std::size_t add_block(const std::string& prefix, const FieldTable& table);
 
-  /// Room for `rows` rows; as a ring for the last `rows`.
+  /// Room for `rows` rows; as a ring for the last `rows`. Throws std::length_error for more than there can be.
   void reserve(std::size_t rows, bool ring = false);
 
   /// Where the next row goes, or nullptr when the trace is full; `commit` makes it visible.
@@ -73,11 +73,13 @@ class Trace {
   /// The rows as they lie; of a ring, use `copy`.
   const std::byte* data() const { return reinterpret_cast<const std::byte*>(data_.data()); }
 
-  /// Copies rows `from`, `from` + 1, ... to `out`, as many as fit in it; all of them are below
-  /// `size()`. Returns how many of the first rows were overwritten before or during the copy: their
-  /// content in `out` is invalid.
+  /// Copies rows `from`, `from` + 1, ... to `out`, as many as fit in it and are below `size()`; beyond
+  /// them `out` stays as it is. Returns how many of the first rows were overwritten before or during
+  /// the copy: their content in `out` is invalid.
   std::size_t copy(std::size_t from, std::span<std::byte> out) const EBAC_RT {
-    const std::size_t rows = out.size() / row_;
+    const std::size_t n = size();  // once: it grows
+    const std::size_t rows = std::min(out.size() / row_, n - std::min(from, n));
+    if (rows == 0) return 0;
     if (ring_) {
       for (std::size_t i = 0; i < rows; ++i) take(from + i, out.data() + i * row_, row_);
     } else {
@@ -86,9 +88,10 @@ class Trace {
     return std::clamp(first(), from, from + rows) - from;
   }
 
-  /// The sample of row `i`; axes beyond the ones in use are zero.
+  /// The sample of row `i`; axes beyond the ones in use are zero. That of a row that is not there yet is as it begins.
   Sample sample(std::size_t i) const {
     Sample s;
+    if (i >= size()) return s;
     const std::size_t size =
         offsetof(Sample, axis) + sizeof(Axis) * static_cast<std::size_t>(axes_);
     if (ring_) {
