@@ -252,6 +252,32 @@ TEST(EnableSequence, AtRestEveryExchangeSaysOff) {
   EXPECT_TRUE(bench.device.at_rest());
 }
 
+TEST(EnableSequence, OnlyAStateWithoutPowerIsRest) {
+  TestBench bench({.axes = 1});
+  bench.drives.drive[0].stuck = true;
+  for (unsigned word = 0; word < 0x80; ++word) {
+    bench.drives.drive[0].statusword = static_cast<std::uint16_t>(word);
+    bench.tick();
+    const unsigned low = word & 0x4F;
+    EXPECT_EQ(bench.device.at_rest(), low == 0x40 || low == 0x08 || low == 0) << word;
+  }
+}
+
+/// It may have heard the words that it does not answer.
+TEST(EnableSequence, ADriveThatFallsSilentOnItsWayDownIsSwitchedOff) {
+  TestBench bench({.axes = 2});
+  bench.enable();
+  bench.tick(1, 1);
+  bench.drives.drive[1].copies = 0;
+  bench.device.disable();
+  bench.ticks(bench.setup.silent_ticks + 3);
+  for (const auto& drive : {bench.drives.drive[0], bench.drives.drive[1]}) {
+    EXPECT_EQ(drive.statusword, 0x40);
+    EXPECT_EQ(drive.target, 0);
+  }
+  EXPECT_FALSE(bench.device.at_rest());  // nobody knows
+}
+
 TEST(EnableSequence, DisableGoesDownStepByStep) {
   TestBench bench;
   bench.enable();

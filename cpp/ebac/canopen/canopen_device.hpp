@@ -82,11 +82,8 @@ class CanopenDevice {
   bool running() const EBAC_RT { return sequence_.running(); }
   /// Every drive answered in the last tick and reports that its power is off.
   bool at_rest() const EBAC_RT {
-    return std::ranges::all_of(links(), [](const NodeLink& link) {
-      const DriveState state = link.state();
-      return link.answered() && (state == DriveState::kSwitchOnDisabled ||
-                                 state == DriveState::kNotReady || state == DriveState::kFault);
-    });
+    return std::ranges::all_of(links(),
+                               [](const NodeLink& link) { return link.answered() && link.off(); });
   }
   Fault fault() const EBAC_RT { return fault_; }
   const State& state(std::size_t axis) const EBAC_RT { return link_[axis].row(); }
@@ -110,11 +107,18 @@ class CanopenDevice {
       const double current = setup_.motor_sign[i] * command.current[i];
       const std::int16_t torque = sequence_.running() ? scale_.permille(current) : std::int16_t{0};
       ++i;
-      link.sent(bus_->send(link.command(sequence_.command(link.state()), torque)));
+      link.sent(bus_->send(link.command(next_for(link), torque)));
     }
     if (!bus_->send({.id = kSync})) {
       for (NodeLink& link : links()) ++link.row().refused;
     }
+  }
+
+  /// A drive that falls silent on its way down goes off at once: its state is not known any more.
+  DriveCommand next_for(const NodeLink& link) const EBAC_RT {
+    const bool lost =
+        sequence_.goal() == EnableSequence::Goal::kRest && link.row().age >= setup_.silent_ticks;
+    return lost ? DriveCommand::kDisableVoltage : sequence_.command(link.state());
   }
 
   /// The loop's own heartbeat, for drives that watch it (0x1016).

@@ -131,6 +131,12 @@ constexpr DriveState state_of(std::uint16_t statusword) EBAC_RT {
   }
 }
 
+/// Whether a statusword says that the power is off: not ready, switch on disabled or fault. A word of no state does not.
+constexpr bool power_off(std::uint16_t statusword) EBAC_RT {
+  const unsigned low = statusword & 0x4FU;
+  return low == 0x00 || low == 0x40 || low == 0x08;
+}
+
 constexpr bool faulty(DriveState state) EBAC_RT {
   return state == DriveState::kFault || state == DriveState::kFaultReaction;
 }

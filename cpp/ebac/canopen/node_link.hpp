@@ -140,6 +140,7 @@ class NodeLink {
     return static_cast<std::int16_t>(row_.actual_permille);
   }
   DriveState state() const EBAC_RT { return state_of(static_cast<std::uint16_t>(row_.statusword)); }
+  bool off() const EBAC_RT { return power_off(static_cast<std::uint16_t>(row_.statusword)); }
   const BusRow& row() const EBAC_RT { return row_; }
   BusRow& row() EBAC_RT { return row_; }
 
