@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+
 #include "ebac/canopen/cia402.hpp"
 
 namespace ebac::can {
@@ -15,14 +17,14 @@ class EnableSequence {
     ticks_ = 0;
     running_ = false;
   }
-  void tick() EBAC_RT { ++ticks_; }
+  void tick() EBAC_RT { ticks_ = std::min(ticks_ + 1, kMostTicks); }
   /// Every drive is enabled: from here on they get their torque.
   void run() EBAC_RT { running_ = true; }
 
   Goal goal() const EBAC_RT { return goal_; }
   bool running() const EBAC_RT { return running_; }
   bool enabling() const EBAC_RT { return goal_ == Goal::kRun && !running_; }
-  int ticks() const EBAC_RT { return ticks_; }  // exchanges since it was wanted
+  int ticks() const EBAC_RT { return ticks_; }  // exchanges since it was wanted, kMostTicks at most
 
   DriveCommand command(DriveState state) const EBAC_RT {
     if (goal_ == Goal::kRun) return up_from(state);
@@ -34,6 +36,7 @@ class EnableSequence {
 
  private:
   static constexpr int kZeroTicks = 1;
+  static constexpr int kMostTicks = 1'000'000'000;  // runs may last for weeks
 
   Goal goal_ = Goal::kRest;
   bool running_ = false;

@@ -36,12 +36,13 @@ class TorqueWatch {
     const int high = std::max(0, *std::ranges::max_element(asked));
     const int room = tolerance_ + std::max(-low, high) / kOvershoot;
     const bool agrees = low - room <= torque && torque <= high + room;
-    score_ = agrees ? std::max(0, score_ - 1) : score_ + 2;
+    score_ = agrees ? std::max(0, score_ - 1) : std::min(score_ + 2, kMostScore);
   }
   bool differs() const EBAC_RT { return score_ >= 2 * ticks_; }
 
  private:
-  static constexpr int kOvershoot = 10;  // a tenth: of a current loop, indicative
+  static constexpr int kMostScore = 1'000'000;  // far more than differs
+  static constexpr int kOvershoot = 10;         // a tenth: of a current loop, indicative
 
   int ticks_;
   int tolerance_;

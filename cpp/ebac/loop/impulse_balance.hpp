@@ -81,7 +81,7 @@ class ImpulseBalance {
     slack_ += row.slack - two.slack;
     way_ += std::abs(row.way) - std::abs(two.way);
     bend_ = x - 2 * one.x + two.x;
-    still_ = row.way == 0 ? still_ + 1 : 0;
+    still_ = row.way == 0 ? std::min(still_ + 1, kRows) : 0;
     at_ = (at_ + 1) % kRows;
     row_[static_cast<std::size_t>(at_)] = row;
     ++known_;
@@ -92,7 +92,7 @@ class ImpulseBalance {
   double excess() const EBAC_RT { return excess_over(others_ - motor_); }
   /// Whether they would agree if the motor's force acted the other way round.
   bool agrees_reversed() const EBAC_RT { return excess_over(others_ + motor_) == 0; }
-  /// Ticks since the encoder last changed.
+  /// Ticks since the encoder last changed, up to more than twice `ticks`.
   int still() const EBAC_RT { return still_; }
   int ticks() const EBAC_RT { return n_; }
 
