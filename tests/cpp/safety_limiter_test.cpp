@@ -212,6 +212,8 @@ TEST(SafetyLimiter, NamesWhatItSees) {
   p.axes[0].joint.q = 0;
   p.limiter.restart();
   EXPECT_EQ(seen(p, {.force_age = 1}), Fault::kForceStale);
+  EXPECT_EQ(seen(p, {.force_age = std::nan("")}), Fault::kForceStale);
+  EXPECT_EQ(seen(p, {.force_status = static_cast<SensorStatus>(9)}), Fault::kForceError);
   EXPECT_EQ(seen(p, {.force_status = SensorStatus::kSaturated}), Fault::kForceSaturated);
   EXPECT_EQ(seen(p, {.force_status = SensorStatus::kDisconnected}), Fault::kForceDisconnected);
   EXPECT_EQ(seen(p, {.force_status = SensorStatus::kError}), Fault::kForceError);

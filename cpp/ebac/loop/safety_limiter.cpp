@@ -100,9 +100,10 @@ bool SafetyLimiter::fast(std::size_t i, double q, double since) EBAC_RT {
 
 Fault SafetyLimiter::sensor(const Reading& reading) const EBAC_RT {
   if (reading.force_status == SensorStatus::kDisconnected) return Fault::kForceDisconnected;
-  if (reading.force_status == SensorStatus::kError) return Fault::kForceError;
   if (reading.force_status == SensorStatus::kSaturated) return Fault::kForceSaturated;
-  return reading.force_age > limits_.force_age ? Fault::kForceStale : Fault::kNone;
+  if (reading.force_status != SensorStatus::kGood) return Fault::kForceError;
+  const bool fresh = reading.force_age <= limits_.force_age;  // not so for NaN
+  return fresh ? Fault::kNone : Fault::kForceStale;
 }
 
 /// Current of the soft wall at the edge of the workspace [A]; it pushes inwards only.

@@ -116,11 +116,12 @@ inline Fallback StateObserver::failure(const Reading& reading, std::size_t axes)
     contradicted = std::max(contradicted, observer_[i].contradicted());
   }
   const bool model_fails = contradicted > (fallback_ == Fallback::kModel ? kAgrees : kContradicted);
-  return reading.force_status != SensorStatus::kGood       ? Fallback::kForceStatus
-         : reading.force_age > observing_.params.force_age ? Fallback::kForceStale
-         : model_fails                                     ? Fallback::kModel
-         : account_.given_up()                             ? Fallback::kAccount
-                                                           : Fallback::kNone;
+  const bool fresh = reading.force_age <= observing_.params.force_age;  // not so for NaN
+  return reading.force_status != SensorStatus::kGood ? Fallback::kForceStatus
+         : !fresh                                    ? Fallback::kForceStale
+         : model_fails                               ? Fallback::kModel
+         : account_.given_up()                       ? Fallback::kAccount
+                                                     : Fallback::kNone;
 }
 
 /// Fades the estimate out in 20 ms where its inputs or its model fail, and in again when neither has failed for a while:
