@@ -122,6 +122,25 @@ TEST(Thread, WithoutMemoryForItsReportIsAnExceptionOfTheCaller) {
   EXPECT_EQ(runs, 0);
 }
 
+/// Nor does a change of a running loop that has no memory for it.
+TEST(ParameterUpdates, WithoutMemoryForALawIsAnExceptionOfTheCaller) {
+  const AnyLaw law = any_law(designed<Direct>(busy()));
+  ParameterUpdates<PerAxis<AnyLaw>> updates(law);
+  bool refused = false;
+  std::thread poster([&] {
+    others_get_none = true;
+    try {
+      updates.post(law);
+    } catch (const std::bad_alloc&) {
+      refused = true;
+    }
+    others_get_none = false;
+  });
+  poster.join();
+  EXPECT_TRUE(refused);
+  EXPECT_EQ(updates.post(law), 1u);  // as if nothing had been
+}
+
 TYPED_TEST(Realtime, StepsOfALawDoNotAllocate) {
   const Setup setup = busy();
   auto law = designed<TypeParam>(setup);

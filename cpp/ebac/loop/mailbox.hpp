@@ -5,6 +5,8 @@
 #include <atomic>
 #include <concepts>
 #include <cstdint>
+#include <type_traits>
+#include <utility>
 
 #include "ebac/core/realtime.hpp"
 
@@ -20,10 +22,11 @@ class Mailbox {
   /// `initial` only fills the slots; there is nothing to take until `post`.
   explicit Mailbox(const T& initial = {}) : places_{initial, initial, initial} {}
 
-  /// Writer.
-  void post(const T& value) EBAC_RT {
+  /// Writer. A value whose copy may throw is moved, or its copy would end the process.
+  void post(T value) EBAC_RT {
+    static_assert(std::is_nothrow_move_assignable_v<T>);
     const std::uint32_t mine = within(writers_);
-    places_[mine] = value;
+    places_[mine] = std::move(value);
     writers_ = within(shared_.exchange(mine | kNew, std::memory_order_acq_rel));
   }
 

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <span>
 #include <type_traits>
+#include <utility>
 
 #include "ebac/core/realtime.hpp"
 #include "ebac/core/sample.hpp"
@@ -60,9 +61,10 @@ class ParameterUpdates {
   explicit ParameterUpdates(const Scalar& law) : law_({0, sent(law)}) {}
 
   /// Sends new gains of the law (its memory stays) or another law, a new environment, a new hand target or delay.
-  /// Returns the serial number of the update.
-  std::uint64_t post(const Scalar& law) EBAC_RT { return send(law_, sent(law)); }
-  std::uint64_t post(const Environment& world) EBAC_RT { return send(world_, world); }
+  /// Returns the serial number of the update. Where a copy takes memory, that of a law of any type, it throws std::bad_alloc
+  /// without any, and the loop goes on as before.
+  std::uint64_t post(const Scalar& law) { return send(law_, sent(law)); }
+  std::uint64_t post(const Environment& world) { return send(world_, world); }
   std::uint64_t post(const HandTarget& aim) EBAC_RT { return send(aim_, aim); }
   std::uint64_t post(const CommandDelay& delay) EBAC_RT { return send(delay_, delay); }
   /// `at_once`: without the ramp of the force.
@@ -121,8 +123,8 @@ class ParameterUpdates {
     T value;
   };
   template <class T>
-  std::uint64_t send(Mailbox<Message<T>>& box, const T& value) EBAC_RT {
-    box.post({++serial_, value});
+  std::uint64_t send(Mailbox<Message<T>>& box, T value) EBAC_RT {
+    box.post({++serial_, std::move(value)});
     return serial_;
   }
 
