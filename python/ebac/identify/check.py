@@ -287,14 +287,16 @@ def check(
     others = set(active_children())
     pool = ProcessPoolExecutor(workers, initializer=_without_handlers)
     try:
-        for done, found in enumerate(pool.map(_run, jobs), 1):
-            outcomes += found
+        for done, job in enumerate([pool.submit(_run, job) for job in jobs], 1):
+            outcomes += job.result()
             if progress is not None:
                 progress(done)
     except BaseException:
         for worker in set(active_children()) - others:
             worker.terminate()
-        pool.shutdown(wait=False, cancel_futures=True)
+        # Nothing is cancelled, as by pool.map: the pool gives each job the error of its workers, which a cancelled one
+        # refuses with a traceback.
+        pool.shutdown(wait=False)
         raise
     pool.shutdown()
     return Check(outcomes=tuple(outcomes))
