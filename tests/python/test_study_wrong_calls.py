@@ -157,6 +157,35 @@ WRONG: dict[str, tuple[Callable[[], Any], type[Exception], str]] = {
         ValueError,
         "kp from 1 to 0: must lie in [0, 10], the lower one first",
     ),
+    "law by name of worst, twice": (
+        lambda: E.worst("tca", law="eba"),
+        TypeError,
+        "ebac.worst: law is given twice, as 'tca' and by name",
+    ),
+    "tune without a law": (
+        lambda: E.tune(hand=1),
+        TypeError,
+        "ebac.tune has no parameter 'hand'; it has: law, conditions, training, test, ranges, base, evaluations, seed, "
+        "threads, progress",
+    ),
+}
+
+#: A name that is not taken, and what follows it.
+NAMES = {
+    (
+        "tune",
+        "hands",
+    ): ": give training=ebac.Operators.sample(24, 14), 24 random hands of seed 14; it has: law, ",
+    ("worst", "familly"): ", did you mean 'family'; it has: law, condition, family, ",
+    ("study", "conditon"): ", did you mean 'conditions'",
+    ("sweep", "law"): ", did you mean 'laws'",
+    ("stiffest", "shares"): ", did you mean 'share'",
+    ("zwidth", "rung"): ", did you mean 'rungs'",
+    ("stability_map", "xss"): ", did you mean 'xs'",
+    ("tissue", "law"): ", did you mean 'laws'",
+    ("shapes", "world"): ", did you mean 'worlds'",
+    ("engines", "rate"): ", did you mean 'rates'",
+    ("random_worlds", "law"): ", did you mean 'laws'",
 }
 
 
@@ -167,6 +196,15 @@ def test_a_wrong_call_is_refused_by_name(
     with pytest.raises(kind) as refused:
         call()
     assert refused.value.args[0] == message
+
+
+@pytest.mark.parametrize(("function", "name"), NAMES)
+def test_a_name_that_is_not_taken_is_refused_with_the_nearest(function: str, name: str) -> None:
+    """Python said `tune() got an unexpected keyword argument 'hands'`."""
+    with pytest.raises(TypeError) as refused:
+        getattr(E, function)("tca", **{name: 4})
+    begin = f"ebac.{function} has no parameter {name!r}{NAMES[function, name]}"
+    assert refused.value.args[0].startswith(begin)
 
 
 def test_a_run_that_is_none_of_a_study_is_refused() -> None:

@@ -52,6 +52,10 @@ ELSEWHERE = {
     ("Encoder", "resolution"): _RESOLUTION,
     ("Timing", "rate"): "give dt, 1/rate",
     ("Mesh", "path"): "did you mean 'file'",
+    (
+        "ebac.tune",
+        "hands",
+    ): "give training=ebac.Operators.sample(24, 14), 24 random hands of seed 14",
 }
 
 

@@ -50,17 +50,20 @@ def core_sentence(
     return min(sentences, key=len) if sentences else f"{label} cannot be called like this"
 
 
-def python_sentence(cls: type, values: tuple[Any, ...], given: dict[str, Any]) -> str:
-    """Return what is wrong with the call of a constructor written in Python."""
+def python_sentence(
+    called: Callable[..., Any], values: tuple[Any, ...], given: dict[str, Any]
+) -> str:
+    """Return what is wrong with the call of a class or of a public function written in Python."""
     kinds = inspect.Parameter
-    parameters = list(inspect.signature(cls).parameters.values())
+    label = called.__name__ if isinstance(called, type) else f"ebac.{called.__name__}"
+    parameters = list(inspect.signature(called).parameters.values())
     if given and parameters[0].kind is kinds.VAR_POSITIONAL:
-        return f"{cls.__name__} takes its {parameters[0].name} in order, not by name: {next(iter(given))}"
+        return f"{label} takes its {parameters[0].name} in order, not by name: {next(iter(given))}"
     takes = [
         _Parameter(p.name, "Any", p.default is kinds.empty, p.kind is kinds.KEYWORD_ONLY)
         for p in parameters
     ]
-    return _sentence(cls.__name__, takes, values, given)
+    return _sentence(label, takes, values, given)
 
 
 def refuse_names(label: str, call: Callable[..., Any], given: Mapping[str, Any]) -> None:

@@ -6,9 +6,11 @@ from collections.abc import Callable, Iterable
 from enum import Enum
 from functools import wraps
 from types import ModuleType
-from typing import Any, TypeVar
+from typing import Any, ParamSpec, TypeVar
 
 Class = TypeVar("Class", bound=type)
+P = ParamSpec("P")
+Result = TypeVar("Result")
 
 
 def wrap_members(module: ModuleType) -> None:
@@ -77,19 +79,31 @@ def _not_made(self: Any, *values: Any, **given: Any) -> None:
 def plain_constructor(cls: Class) -> Class:
     """Decorate a class whose constructor refuses a wrong call with the names it takes."""
     construct: Callable[..., None] = getattr(cls, "__init__")  # noqa: B009
+    setattr(cls, "__init__", _by_name(construct, lambda values: (type(values[0]), values[1:])))  # noqa: B010
+    return cls
 
-    @wraps(construct)
-    def by_name(self: Any, *values: Any, **given: Any) -> None:
+
+def plain_function(function: Callable[P, Result]) -> Callable[P, Result]:
+    """Decorate a public function of `ebac` that refuses a wrong call with the names it takes."""
+    return _by_name(function, lambda values: (function, values))
+
+
+def _by_name(
+    call: Callable[P, Result], split: Callable[[tuple[Any, ...]], tuple[Any, tuple[Any, ...]]]
+) -> Callable[P, Result]:
+    """Return the same call, refused by name; `split` returns what was called, and the values that it was given."""
+
+    @wraps(call)
+    def by_name(*values: P.args, **given: P.kwargs) -> Result:
         try:
-            construct(self, *values, **given)
-            return
+            return call(*values, **given)
         except TypeError as error:
             inner = error.__traceback__ and error.__traceback__.tb_next
-            if inner is not None:  # raised by the constructor's own check, not by the call
+            if inner is not None:  # raised by a check of its own, not by the call
                 raise
         from ebac._util.signatures import python_sentence
 
-        raise TypeError(python_sentence(type(self), values, given))
+        called, own = split(values)
+        raise TypeError(python_sentence(called, own, given))
 
-    setattr(cls, "__init__", by_name)  # noqa: B010
-    return cls
+    return by_name

@@ -12,6 +12,7 @@ from typing import Any
 from ebac._core import Device, Timing
 from ebac._util.plural import plural
 from ebac._util.sequences import require_each, several
+from ebac._util.wrong_calls import plain_function
 from ebac.laws import AnyLaw, changed, design, law_name
 from ebac.laws.protocols import is_core_law
 from ebac.laws.variant import shown_value
@@ -219,6 +220,7 @@ def pieces(law: AnyLaw, changes: Sequence[Mapping[str, Any]] = ()) -> list[Piece
     ]
 
 
+@plain_function
 def ablation(
     population: Operators | None = None,
     law: AnyLaw = "ebac",

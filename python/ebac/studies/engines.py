@@ -10,6 +10,7 @@ from typing import Any
 from ebac._core import BridgeParams, EngineTiming, Wall
 from ebac._util.arguments import require
 from ebac._util.sequences import several, several_numbers
+from ebac._util.wrong_calls import plain_function
 from ebac.laws import AnyLaw, law_name
 from ebac.metrics import contact
 from ebac.scenario import Environment, Scenario
@@ -91,6 +92,7 @@ class Engines:
         return [asdict(row) for row in self.rows]
 
 
+@plain_function
 def engines(
     laws: Sequence[AnyLaw] = LAWS,
     *,

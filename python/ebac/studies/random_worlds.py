@@ -15,6 +15,7 @@ from ebac._util.arguments import named, require, whole
 from ebac._util.cores import thread_count
 from ebac._util.progress import Progress
 from ebac._util.sequences import several
+from ebac._util.wrong_calls import plain_function
 from ebac.laws import AnyLaw, CoreLaw, PythonLaw, design
 from ebac.laws.making import reserve_of
 from ebac.laws.protocols import is_core_law
@@ -34,6 +35,7 @@ STIFFNESSES, DELAYS = (10e3,), (1,)
 MOST_HANDS = 100_000
 
 
+@plain_function
 def random_worlds(
     laws: Laws = ("ebac",),
     *,

@@ -13,6 +13,7 @@ from ebac import presets
 from ebac._core import Device, Hand, Step, Timing
 from ebac._util.atomic_file import write_text
 from ebac._util.sequences import several, several_numbers
+from ebac._util.wrong_calls import plain_function
 from ebac.laws import AnyLaw, law_name
 from ebac.metrics import allowed_deviation, contact
 from ebac.metrics.world_rest import world_rest
@@ -111,6 +112,7 @@ class Shapes:
         return [asdict(row) for row in self.rows]
 
 
+@plain_function
 def shapes(
     laws: Sequence[AnyLaw] = LAWS,
     *,

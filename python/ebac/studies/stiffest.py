@@ -13,6 +13,7 @@ from ebac._core import Wall
 from ebac._util.arguments import number, of_percent, require
 from ebac._util.progress import Progress
 from ebac._util.sequences import several_numbers
+from ebac._util.wrong_calls import plain_function
 from ebac.laws import LAWS
 from ebac.operators import Operators
 from ebac.scenario import Scenario
@@ -27,6 +28,7 @@ LADDER = (1e3, 1.5e3, 2e3, 3e3, 5e3, 7e3, 10e3, 15e3, 20e3, 30e3, 50e3, 70e3, 10
 MOST = 1e7
 
 
+@plain_function
 def stiffest(
     laws: Laws | None = None,
     *,

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from ebac._core import Wall
 from ebac._util.arguments import require, whole
 from ebac._util.progress import Progress
+from ebac._util.wrong_calls import plain_function
 from ebac.operators import Operators
 from ebac.scenario import Scenario
 from ebac.studies.condition import Condition, known_under
@@ -26,6 +27,7 @@ from ebac.studies.sweeps.run import Laws, name_laws, seed_of, sweep
 LAWS = ("direct", "tca", "tca-damped", "eba", "ebac")
 
 
+@plain_function
 def study(
     population: Operators,
     laws: Laws = LAWS,
@@ -80,7 +82,7 @@ def study(
         warnings.warn(
             f"the hand of base, {type(base.hand.model).__name__}, gives way to those of the population; a Condition "
             "whose change sets it has it under every law",
-            stacklevel=2,
+            stacklevel=3,
         )
     if progress is not None:
         hands = sum(len(c.drives) or len(population) for c in chosen)
@@ -133,5 +135,5 @@ def _warn_of_free_air(
         each = ", ".join(f"{part.sum()} of {len(part)} under {name}" for name, part in free.items())
         warnings.warn(
             f"hands that rest before the wall, {each}: every law is good for them; give targets beyond the surface",
-            stacklevel=3,
+            stacklevel=4,
         )

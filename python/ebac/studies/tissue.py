@@ -12,6 +12,7 @@ import numpy as np
 from ebac._core import Elastic, Hand, HuntCrossley, Plane, Recorded
 from ebac._util.arguments import require
 from ebac._util.sequences import several
+from ebac._util.wrong_calls import plain_function
 from ebac.laws import AnyLaw, law_name
 from ebac.metrics import contact
 from ebac.scenario import Scenario
@@ -100,6 +101,7 @@ def materials() -> dict[str, Material]:
     }
 
 
+@plain_function
 def tissue(
     laws: Sequence[AnyLaw] = LAWS,
     *,

@@ -12,6 +12,7 @@ from ebac._util.arguments import number, require, whole
 from ebac._util.cores import thread_count
 from ebac._util.progress import Progress
 from ebac._util.sequences import several
+from ebac._util.wrong_calls import plain_function
 from ebac.laws import AnyLaw, design, law_name
 from ebac.laws.making import reserve_of
 from ebac.laws.tuned_laws import on_its_observer
@@ -116,6 +117,7 @@ class Worst:
         return every_row(chosen.scenario, self.made)
 
 
+@plain_function
 def worst(
     law: AnyLaw = "ebac",
     condition: str | Condition = "d1K10",

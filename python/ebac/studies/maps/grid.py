@@ -12,6 +12,7 @@ from ebac._util.arguments import require, unknown
 from ebac._util.arrays import Values
 from ebac._util.progress import Progress
 from ebac._util.sequences import several_numbers
+from ebac._util.wrong_calls import plain_function
 from ebac.laws import AnyLaw
 from ebac.scenario import Scenario
 from ebac.studies.maps.axes import AXES, MapAxis
@@ -23,6 +24,7 @@ from ebac.studies.sweeps.run import name_laws
 SIDE = 200
 
 
+@plain_function
 def stability_map(
     law: AnyLaw = "ebac",
     x: str = "damping",

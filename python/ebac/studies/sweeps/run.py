@@ -14,6 +14,7 @@ import numpy as np
 from ebac._core import Device, DeviceFacts, RunLimits, Timing
 from ebac._util.arguments import require, require_path, whole
 from ebac._util.progress import Progress
+from ebac._util.wrong_calls import plain_function
 from ebac.laws import AnyLaw, design, law_name
 from ebac.laws.tuned_laws import on_its_observer
 from ebac.scenario import Scenario
@@ -42,6 +43,7 @@ class SweepInterrupted(KeyboardInterrupt):
         return type(self), (self.result,)
 
 
+@plain_function
 def sweep(
     scenarios: Sequence[Scenario],
     laws: Laws,

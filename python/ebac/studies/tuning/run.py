@@ -7,6 +7,7 @@ from dataclasses import replace
 
 from ebac._util.arguments import named, require, whole
 from ebac._util.progress import Progress
+from ebac._util.wrong_calls import plain_function
 from ebac.laws import LAWS, AnyLaw, Variant, changed, law_name
 from ebac.laws.making import checked
 from ebac.operators import Operators
@@ -24,6 +25,7 @@ TUNING_CONDITIONS = ("d0K10", "d0K20", "d1K10", "d1K20", "d2K10", "d2K20")
 HANDS, HANDS_SEED = 24, 14
 
 
+@plain_function
 def tune(
     law: AnyLaw,
     conditions: Sequence[str | Condition] = TUNING_CONDITIONS,

@@ -13,6 +13,7 @@ from ebac._core import LinearLoop, Recorded, Timing, Wall
 from ebac._util.arguments import require, whole
 from ebac._util.arrays import Values
 from ebac._util.sequences import several, several_numbers
+from ebac._util.wrong_calls import plain_function
 from ebac.laws import LAWS, AnyLaw
 from ebac.metrics import EXACT_COUNTS, ideal_rest
 from ebac.metrics.unjudged import no_ideal_rest
@@ -38,6 +39,7 @@ Flags = NDArray[np.bool_]
 Point = tuple[Timing, float]
 
 
+@plain_function
 def zwidth(
     laws: Laws | None = None,
     *,
