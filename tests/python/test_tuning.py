@@ -271,6 +271,27 @@ def test_a_tuned_law_that_does_worse_than_its_design_says_so(
     assert "keep the design" in " ".join(done.output.split())
 
 
+def test_the_command_prints_what_was_found_to_copy_or_that_nothing_was(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """An empty list stood before the cost, and `never` for hands of which 60 of 60 were in time."""
+    better = {"share": 0.2147, "account": True, "rate": 49020.0}
+    results = [
+        found(good=0, median_settled_s=None),
+        replace(found(), changes=better, observer=True),
+    ]
+    monkeypatch.setattr("ebac.studies.tune", lambda *_, **__: results)
+    lines = CliRunner().invoke(app, ["tune", "eba", "-c", "d1K10"]).stdout
+    said = " ".join(lines.split())
+    assert "eba, 1 sample of delay: nothing better than the design; cost 0.200, 20 points" in said
+    assert "share = 0.2147, account = on, rate = 49020; cost 0.200 -> 0.100, 20 points" in said
+    assert "  --change share=0.2147,account=on,rate=49020 --observer-every-law" in lines
+    assert said.count("--change") == 1
+    assert "never" not in said
+    assert "Cost: mean of the training hands, less is better" in said
+    assert "delay 1: nothing better; good" in repr(results[0])
+
+
 def test_a_law_is_tuned_for_the_observer_when_it_acts_on_one() -> None:
     (alone,), (observed,) = (
         quick(base=NOISY.replace(seconds=1.5, observer=given)) for given in (True, "every-law")

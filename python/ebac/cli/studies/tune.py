@@ -144,12 +144,19 @@ def _write(draft: Path | None, text: str, found: list[Tuned]) -> None:
     output.csv_table(draft / "tune.csv", rows)
 
 
+def _to_copy(one: Tuned) -> str:
+    """Return the options that give another command the parameters found, all digits included."""
+    values = [
+        ("off", "on")[v] if isinstance(v, bool) else str(v).removesuffix(".0")
+        for v in one.changes.values()
+    ]
+    pairs = ",".join(f"{name}={value}" for name, value in zip(one.changes, values, strict=True))
+    return f"--change {pairs}{' --observer-every-law' * one.observer}"
+
+
 def _show(found: list[Tuned]) -> None:
     from ebac._util import formatting
     from ebac.laws.variant import shown_value
-
-    def seconds(value: float | None) -> str:
-        return "never" if value is None else f"{value:.3f} s"
 
     def quantity(value: float | None, unit: str) -> str:
         return "-" if value is None else formatting.quantity(value, unit)
@@ -174,23 +181,27 @@ def _show(found: list[Tuned]) -> None:
                 in_time = "-" if row.settled_in_time is None else f"{row.settled_in_time}{of}"
                 grid.add_row(
                     one.law, row.condition, what, f"{row.exact_and_still}{of}", f"{row.good}{of}", in_time,
-                    quantity(row.median_impact_share, "share"), seconds(row.median_settled_s),
+                    quantity(row.median_impact_share, "share"), quantity(row.median_settled_s, "s"),
                     quantity(row.most_drawn_J, "J"), quantity(row.force_swing_N, "N"),
                 )  # fmt: skip
     output.show(grid)
     output.say(
         "Good hands by their position alone, and by position and force. In time: of the former, those that settle "
         "within 1.5 times what they need at an ideal wall, plus 0.2 s. On impact: median share of the wall's stiffness "
-        "where a hand is deepest. Settled: median of the good. Force swing: peak to peak at rest, the largest of the "
-        "hands good in position."
+        "where a hand is deepest. Settled: median of the good, - where there is none. Force swing: peak to peak at "
+        "rest, the largest of the hands good in position. Cost: mean of the training hands, less is better; 0 for a "
+        "good hand that meets the full wall and settles at once, 1 and more for one that is not good."
     )
     for one in found:
-        changes = ", ".join(f"{n} = {shown_value(v)}" for n, v in one.changes.items())
         samples, acts = output.plural(one.delay, "sample"), ", on the observer" * one.observer
+        changes = ", ".join(f"{n} = {shown_value(v)}" for n, v in one.changes.items())
+        cost = f"cost {one.default_cost:.3f} -> {one.cost:.3f}"
         output.say(
-            f"{one.law}, {samples} of delay{acts}: {changes}; cost {one.default_cost:.3f} -> {one.cost:.3f}, "
-            f"{one.tried} points"
+            f"{one.law}, {samples} of delay{acts}: {changes or 'nothing better than the design'}; "
+            f"{cost if changes else cost.partition(' ->')[0]}, {one.tried} points"
         )
+        if changes:
+            output.indented(_to_copy(one))
         for line in one.at_bounds:
             output.note(f"{one.law}, {samples} of delay: {line}")
     for line in (line for one in found for line in one.worse):

@@ -127,7 +127,7 @@ class Tuned:
             f"{t.condition} {t.good} of {t.hands} (before: {d.good})"
             for t, d in zip(self.test, self.default, strict=True)
         )
-        return f"<{self.law}, delay {self.delay}: {found}; good, simulated: {good}>"
+        return f"<{self.law}, delay {self.delay}: {found or 'nothing better'}; good, simulated: {good}>"
 
 
 class TuningInterrupted(KeyboardInterrupt):
