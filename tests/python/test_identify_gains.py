@@ -14,6 +14,7 @@ from typer.testing import CliRunner
 import ebac
 from ebac import identify
 from ebac.cli import app
+from ebac.cli.by_option import columns_in_options
 from ebac.cli.identify.gains import _note_other_device, _parts
 from ebac.hardware import Configuration
 from ebac.identify import Limits, Recording, Target, fit_gains, fit_loop
@@ -46,6 +47,20 @@ def trace() -> ebac.Trace:
 def loop(trace: ebac.Trace):
     recording = Recording.from_trace(trace)
     return fit_loop(recording, Target.of(trace.scenario.hand, recording.t))
+
+
+def test_columns_that_are_not_used_are_named_since_one_may_be_the_desired_force(trace) -> None:
+    """A column F_wall was ignored without a remark, and the wall was one of 10 kN/m."""
+    recording = Recording.from_trace(trace)
+    lacks = replace(recording, motor=None, desired=None, unread=("Temp", "F_wall"))
+    said = fit_loop(lacks, Target.of(trace.scenario.hand, recording.t)).remarks
+    begin = "not used: Temp, F_wall (columns="
+    for signal in ("motor", "desired"):
+        hint = f"name its column as the signal {signal}, if it is one that is {begin}{{'{signal}': 'F_wall'}})"
+        assert sum(text.endswith(hint) for text in said) == 1
+    assert columns_in_options(said[1]).endswith("F_wall (--column desired=F_wall)")
+    whole = fit_loop(replace(recording, unread=("Temp",)), wall=ebac.Wall()).remarks
+    assert not any("not used" in text for text in whole)
 
 
 @pytest.fixture

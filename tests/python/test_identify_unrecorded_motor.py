@@ -146,5 +146,6 @@ def test_a_delay_that_was_given_is_shown_as_given() -> None:
 def test_columns_that_are_not_used_are_named_since_one_may_be_the_motor() -> None:
     recording = pushed(*HANDS[0])
     lacks = replace(recording, motor=None, unread=("Motor Kraft",))
-    assert any("not used: Motor Kraft" in note for note in identify.fit_arm(lacks).notes)
+    told = "not used: Motor Kraft (columns={'motor': 'Motor Kraft'})"
+    assert any(told in note for note in identify.fit_arm(lacks).notes)
     assert not any("not used" in note for note in identify.fit_arm(recording).notes)

@@ -71,7 +71,7 @@ def in_options(message: str) -> str:
             "start on the surface: --approach 0",
             message,
         )
-    message = re.sub(r"""columns=(\{'.+?['"]\})""", _columns, message)
+    message = columns_in_options(message)
     for pattern in (r"(?:[\w ]+: )?([A-Za-z_.]+)(?= ?= )", r"(?:[a-z_]+: )?([a-z_]+)(?= \S+: )"):
         found = re.match(pattern, message)
         if found is None:
@@ -83,6 +83,11 @@ def in_options(message: str) -> str:
         if option is not None and option not in left_to_file:
             return option + message[found.end() :]
     return message
+
+
+def columns_in_options(text: str) -> str:
+    """Return a text of the library with the options that name columns, in place of the argument."""
+    return re.sub(r"""columns=(\{'.+?['"]\})""", _columns, text)
 
 
 def _columns(found: re.Match[str]) -> str:

@@ -15,6 +15,7 @@ from ebac._util.wrong_calls import plain_constructor
 from ebac.identify.arm import fit_arm
 from ebac.identify.device import fit_device
 from ebac.identify.device_result import DeviceResult
+from ebac.identify.missing import name_if_unread
 from ebac.identify.recording import Recording
 from ebac.identify.recording_list import require_recordings
 from ebac.identify.result import ArmResult
@@ -116,8 +117,9 @@ def fit_loop(
     known = _merged(device or Device(), found, first, remarks)
     if wall is None:
         wall = wall_of(first)
+        named = "" if first.desired is not None else name_if_unread("desired", [first], ";")
         remarks.append(
-            "wall: of 10 kN/m, not known, as the log has no force asked for (column desired)"
+            f"wall: of 10 kN/m, not known, as the log has no force asked for (column desired){named}"
             if wall is None
             else f"wall: {wall.stiffness:.4g} N/m, from the force asked for"
         )
@@ -136,7 +138,8 @@ def fit_loop(
 
 def _device_of(r: Recording, remarks: list[str], whose: str) -> DeviceResult | None:
     if r.motor is None:
-        remarks.append(f"device: {whose}, the log has no force of the motor")
+        named = name_if_unread("motor", [r], ";")
+        remarks.append(f"device: {whose}, the log has no force of the motor{named}")
         return None
     try:
         return fit_device(r, current_lag=r.current_lag)

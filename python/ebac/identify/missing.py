@@ -28,16 +28,32 @@ def not_found(signals: Sequence[str], headings: Sequence[str], left: Sequence[st
     return f"found {words} among {listed(list(headings))}{ask}"
 
 
+def name_if_unread(signal: str, recordings: Sequence[Recording], before: str) -> str:
+    """Return that a signal may be one of the columns that are not used, and how to name it; "" where all are used."""
+    names = list(dict.fromkeys(name for r in recordings for name in r.unread))
+    if not names:
+        return ""
+    return (
+        f"{before} name its column as the signal {signal}, if it is one that is not used: {listed(names)} "
+        f"({_example([signal], names)})"
+    )
+
+
 def which_is_it(signals: Sequence[str], left: Sequence[str]) -> str:
     """Return the question which of the headings that are left are these signals, the likeliest as examples."""
+    which = "which is it" if len(signals) == 1 else "which are they"
+    return f"{which}? For example {_example(signals, left)}"
+
+
+def _example(signals: Sequence[str], left: Sequence[str]) -> str:
+    """Return how to name columns as these signals, the likeliest of those that are left."""
     free, chosen = list(left), dict[str, str]()
     for signal in sorted(signals, key=lambda each: -max(_likelihood(each, h) for h in left)):
         if free:
             chosen[signal] = max(free, key=lambda h: _likelihood(signal, h))
             free.remove(chosen[signal])
     pairs = [f"{s!r}: {name_and_unit(s, chosen[s])[0]!r}" for s in signals if s in chosen]
-    which = "which is it" if len(signals) == 1 else "which are they"
-    return f"{which}? For example columns={{{', '.join(pairs)}}}"
+    return f"columns={{{', '.join(pairs)}}}"
 
 
 def _likelihood(signal: str, heading: str) -> int:

@@ -21,7 +21,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ebac._util.arrays import Values
-from ebac.identify.columns import listed
+from ebac.identify.missing import name_if_unread
 from ebac.identify.parameters import SHARED, kind
 
 if TYPE_CHECKING:
@@ -186,19 +186,10 @@ def notes(
     ]
     if not found:
         return ()
+    named = name_if_unread("motor", recordings, ", or")
     text = (
         "The log has no motor force. If a motor moved the handle, its steps fall somewhere between two rows, and the "
         f"hand's force reads late by a part of one: {1e3 * max(found, key=abs):+.2g} ms by this fit. The intervals "
-        f"hold what that leaves open; record the motor force too for narrower ones{_unread(recordings)}."
+        f"hold what that leaves open; record the motor force too for narrower ones{named}."
     )
     return (text,)
-
-
-def _unread(recordings: Sequence[Recording]) -> str:
-    """Return which columns were left unread: one of them may be the motor's force."""
-    names = tuple(dict.fromkeys(name for r in recordings for name in r.unread))
-    if not names:
-        return ""
-    return (
-        f", or name its column as the signal motor, if it is one that is not used: {listed(names)}"
-    )

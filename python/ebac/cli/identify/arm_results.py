@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from ebac.cli import output
+from ebac.cli.by_option import columns_in_options
 from ebac.cli.identify import report as reporting
 
 if TYPE_CHECKING:
@@ -87,7 +88,7 @@ def show(
             "A log of a closed loop is fitted directly; without a moving target there is no second opinion."
         )
     for text in result.notes:
-        output.say(text)
+        output.say(columns_in_options(text))
     for text in careful(result):
         if text not in first:
             output.say(text, style="bold red")
@@ -106,7 +107,7 @@ def write(
     from ebac.identify.figures import plot_arm
 
     notes = [f"{name}: {text}" for name, lines in remarks.items() for text in lines]
-    notes += [*names(result), *result.notes]
+    notes += [*names(result), *map(columns_in_options, result.notes)]
     notes += [f"{p.recording}: {_fit(p)}{' (held out)' if p.held_out else ''}" for p in predictions]
     notes += [
         f"{o.name}: direct {o.direct:.4g} {o.unit}, by instruments {o.unbiased:.4g} {o.unit}"

@@ -9,6 +9,7 @@ import typer
 
 from ebac.cli import completion, output, setting
 from ebac.cli.by_name import one_law
+from ebac.cli.by_option import columns_in_options
 from ebac.cli.identify import options as given
 from ebac.cli.identify import report as reporting
 
@@ -162,7 +163,7 @@ def gains(
         typer.echo(output.document("identify gains", rows, **more))
         return
     for text in (*(f"{r.name}: {text}" for r in recordings for text in r.remarks), *loop.remarks):
-        output.say(text, style="dim")
+        output.say(columns_in_options(text), style="dim")
     table = _cells(result)  # a pair of gains is a column: eleven of them would not fit side by side
     heading, *names = table[0]
     grid = output.table([heading, *(row[heading] for row in table)], numbers=(1, 2, 3))
@@ -292,7 +293,7 @@ def _write(to: reporting.ReportOptions, result: GainsResult, scenario: Path | No
         careful=[],
         notes=[
             *hand,
-            *result.loop.remarks,
+            *map(columns_in_options, result.loop.remarks),
             *_notes(result, scenario),
             _table_of_law(result),
             "Simulated, not measured.",
