@@ -1,6 +1,7 @@
 """Gains from a log: what is chosen keeps its constraints, costs no more than the default, and runs in a scenario."""
 
 import json
+import re
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
@@ -13,9 +14,9 @@ from typer.testing import CliRunner
 
 import ebac
 from ebac import identify
-from ebac.cli import app
+from ebac.cli import app, by_option
 from ebac.cli.by_option import columns_in_options
-from ebac.cli.identify.gains import _note_other_device, _parts
+from ebac.cli.identify.gains import _note_other_device, _notes, _parts, _table_of_law
 from ebac.hardware import Configuration
 from ebac.identify import Limits, Recording, Target, fit_gains, fit_loop
 from ebac.identify.figures import plot_gains
@@ -168,8 +169,55 @@ def test_a_tighter_constraint_holds(loop) -> None:
 def test_what_no_gains_keep_is_refused(loop) -> None:
     with pytest.raises(
         ValueError, match=r"no pair of gains keeps the constraints: broken are .*force"
-    ):
+    ) as refused:
         fit_gains(loop, "ebac", limits=Limits(force=0.1), vary=0.0, evaluations=2)
+    said = str(refused.value)
+    assert re.search(
+        r"; loosen them by limits=Limits\(.*force=\.\.\..*\), or choose another law$", said
+    )
+
+
+def test_the_command_names_the_options_that_loosen_constraints(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    options = {"noise_gain": "--noise-gain", "energy": "--energy", "max_force": "--max-force"}
+    monkeypatch.setattr(by_option, "current", options)
+    said = (
+        "loosen them by limits=Limits(noise_gain=..., energy=..., force=...), or choose another law"
+    )
+    assert by_option.in_options(said) == (
+        "loosen them by --noise-gain and --energy and --max-force, or choose another law"
+    )
+
+
+def test_where_the_force_loop_buys_nothing_the_gains_to_copy_are_zero(chosen) -> None:
+    """A kp of 7.8e-07 was printed to copy."""
+    zero = next(one for one in chosen.tried if one.kp == one.kd == 0)
+    zero = replace(zero, broken=(), close=False)
+    tiny = replace(zero, kp=7.798e-7, name="chosen")
+    idle = replace(chosen, chosen=tiny, tried=(zero, tiny, chosen.default))
+    assert _table_of_law(idle) == '[law]\nname = "tca"\nkp = 0 # 1\nkd = 0 # s'
+    notes = _notes(idle, None)
+    assert notes[0].startswith("The force loop buys nothing here: kp = 0.")
+    assert notes[-1].endswith('("tca", {"kp": 0, "kd": 0})')
+    used = replace(tiny, kp=2e-3)
+    assert _table_of_law(replace(idle, chosen=used)) == _table_of_law(idle)
+    better = replace(used, ratios={**tiny.ratios, "noise": tiny.ratios["noise"] - 2 * ALIKE})
+    for other in (
+        replace(idle, chosen=better),
+        replace(idle, chosen=used, tried=(replace(zero, broken=("energy",)), chosen.default)),
+        replace(idle, chosen=used, tried=(replace(zero, close=True), chosen.default)),
+    ):
+        assert "kp = 0.002 # 1" in _table_of_law(other)
+        assert not any("The force loop buys nothing" in text for text in _notes(other, None))
+    by_kd = replace(idle, chosen=replace(better, kp=7.798e-7, kd=1e-3))
+    assert _table_of_law(by_kd).endswith("kp = 0 # 1\nkd = 0.001 # s")
+    assert _notes(by_kd, None)[0].startswith(
+        "kp buys nothing here: kp = 0. The force loop acts by kd"
+    )
+    both = replace(idle, chosen=replace(better, kd=1e-3))
+    assert _table_of_law(both).endswith("kp = 0.002 # 1\nkd = 0.001 # s")
+    assert not any("buys nothing" in text for text in _notes(both, None))
 
 
 @pytest.mark.parametrize(

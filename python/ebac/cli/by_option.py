@@ -26,6 +26,8 @@ OPTIONS = {
     "Mechanics.coulomb": "--device-coulomb",
     "Compensation.friction": "--device-friction-compensation",
     "Encoder.counts_per_turn": "--device-counts",
+    "Limits.force": "--max-force",
+    "Limits.current": "--max-current",
     "Timing.delay": "--delay",
     "Scenario.jitter": "--jitter",
     "Scenario.seconds": "--seconds",
@@ -72,6 +74,7 @@ def in_options(message: str) -> str:
             message,
         )
     message = columns_in_options(message)
+    message = re.sub(r"limits=Limits\((.+?)\)", _limits, message)
     for pattern in (r"(?:[\w ]+: )?([A-Za-z_.]+)(?= ?= )", r"(?:[a-z_]+: )?([a-z_]+)(?= \S+: )"):
         found = re.match(pattern, message)
         if found is None:
@@ -88,6 +91,12 @@ def in_options(message: str) -> str:
 def columns_in_options(text: str) -> str:
     """Return a text of the library with the options that name columns, in place of the argument."""
     return re.sub(r"""columns=(\{'.+?['"]\})""", _columns, text)
+
+
+def _limits(found: re.Match[str]) -> str:
+    """Return the options for limits=Limits(force=..., energy=...): --max-force and --energy."""
+    names = re.findall(r"\w+", found[1])
+    return " and ".join(OPTIONS.get(f"Limits.{n}") or current.get(n, n) for n in names)
 
 
 def _columns(found: re.Match[str]) -> str:

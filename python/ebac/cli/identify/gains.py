@@ -249,16 +249,29 @@ def _cells(result: GainsResult) -> list[dict[str, str]]:
 
 
 def _notes(result: GainsResult, file: Path | None) -> list[str]:
+    from ebac.identify.gains.gains import gains_to_copy
+
     limits = result.limits
     whose = (
         "the reference device: --scenario FILE takes those of yours" if file is None else str(file)
     )
-    costs = {round(one.cost, 9) for one in result.tried if not one.broken}
-    nothing = [
-        f"No pair of gains changes anything: with the observer {result.name} has no force loop. --law tca-damped has."
-    ]
+    kp, kd = gains_to_copy(result)
+    first = []
+    if len({round(one.cost, 9) for one in result.tried}) == 1:
+        first = [
+            f"No pair of gains changes anything: with the observer {result.name} has no force loop. --law tca-damped "
+            "has."
+        ]
+    elif kp == kd == 0:
+        first = [
+            "The force loop buys nothing here: kp = 0. Without it settling, swing and noise are the same as with the "
+            "chosen gains, within half a tick and a hundredth."
+        ]
+    elif kp == 0 < result.kp or kd == 0 < result.kd:
+        none, other = ("kp", "kd") if kp == 0 else ("kd", "kp")
+        first = [f"{none} buys nothing here: {none} = 0. The force loop acts by {other} alone."]
     return [
-        *(nothing if len(costs) == 1 else []),
+        *first,
         f"{output.plural(len(result.hands), 'hand')}, "
         f"{output.plural(len(result.chosen.presses.goals), 'press', 'presses')}, "
         f"{output.plural(len(result.tried), 'pair')} of gains. "
@@ -267,18 +280,22 @@ def _notes(result: GainsResult, file: Path | None) -> list[str]:
         + ".",
         "cost: all three in one number, below 1 is better than the default gains; noise: changes of the command from "
         "tick to tick over the last 30 %, RMS over the square root of two, mean of the presses; noise gain: RMS of the "
-        "command for 1 N RMS of white noise of the reading, of K_p and K_d alone.",
+        "command for 1 N RMS of white noise of the reading, of K_p and K_d alone; step-response: for comparison, the "
+        "gains that a textbook rule gives for the force after a step of the command, the handle held.",
         "Constraints: overshoot "
         f"{1e3 * (limits.overshoot or 0):.2f} mm, force {limits.force:.1f} N, current {limits.current:.2f} A, "
         f"noise gain {limits.noise_gain:g}, energy {1e3 * limits.energy:g} mJ.",
         f"Motor, drive and encoder are those of {whose}.",
-        f'In Python: ebac.laws.Variant("{result.name}", {{"kp": {result.kp:.4g}, "kd": {result.kd:.4g}}})',
+        f'In Python: ebac.laws.Variant("{result.name}", {{"kp": {kp:.4g}, "kd": {kd:.4g}}})',
     ]
 
 
 def _table_of_law(result: GainsResult) -> str:
     """Return the gains as the table of a configuration of `ebac run`."""
-    return f'[law]\nname = "{result.name}"\nkp = {result.kp:.4g} # 1\nkd = {result.kd:.4g} # s'
+    from ebac.identify.gains.gains import gains_to_copy
+
+    kp, kd = gains_to_copy(result)
+    return f'[law]\nname = "{result.name}"\nkp = {kp:.4g} # 1\nkd = {kd:.4g} # s'
 
 
 def _write(to: reporting.ReportOptions, result: GainsResult, scenario: Path | None) -> list[str]:

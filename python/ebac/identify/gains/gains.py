@@ -8,11 +8,11 @@ from typing import Any
 
 from ebac._core import Hand, Linear
 from ebac._util.arguments import require
-from ebac.identify.gains.press_trials import arms_around, force_loop_laws
-from ebac.identify.gains.search import GainsSearch
-from ebac.identify.gains.trial import Candidate, Limits
+from ebac.identify.gains.press_trials import arms_around, force_loop_laws, noise_gain
+from ebac.identify.gains.search import RESOLVED, GainsSearch
+from ebac.identify.gains.trial import Candidate, Limits, allowances
 from ebac.identify.loop import DEPTH, LoopModel
-from ebac.laws import Variant
+from ebac.laws import Variant, design
 from ebac.scenario import Scenario
 
 #: Why no gains are chosen for a device without a force sensor, and what to do.
@@ -99,6 +99,39 @@ class GainsResult:
             f"{n['settled_median_s']:.3g} s, swings {1e3 * n['swing_worst_m']:.3g} mm at most, cost "
             f"{self.chosen.cost:.3g}, of the default 1>"
         )
+
+
+def buys_nothing(result: GainsResult) -> bool:
+    """Return whether the law without force loop keeps all that the choice keeps, and settles, swings and sounds alike.
+
+    Alike is what the cost cannot resolve: half a tick of settling, a hundredth of swing and noise.
+    """
+    chosen = result.chosen
+    alike = allowances(result.default.presses, result.scenario)
+    return any(
+        one.kp == one.kd == 0
+        and (bool(one.broken), one.close) <= (bool(chosen.broken), chosen.close)
+        and all(abs(one.ratios[n] - chosen.ratios[n]) <= a for n, a in alike.items())
+        for one in result.tried
+    )
+
+
+def gains_to_copy(result: GainsResult) -> tuple[float, float]:
+    """Return the chosen kp [1] and kd [s]; 0 for one that buys nothing or is less than the search resolves.
+
+    Where nothing changes anything, as for a law that does not use its gains, they stay as they are.
+    """
+    if len({round(one.cost, 9) for one in result.tried}) == 1:
+        return result.kp, result.kd
+    if buys_nothing(result):
+        return 0.0, 0.0
+    made: Any = design(result.name, result.loop.device, result.loop.timing)
+    least, tick = RESOLVED**2 * result.limits.noise_gain, result.loop.timing.dt
+    kp, kd = (
+        max(pair) if noise_gain(*pair, made.filter, tick) > least else 0.0
+        for pair in ((result.kp, 0.0), (0.0, result.kd))
+    )
+    return kp, kd
 
 
 def fit_gains(

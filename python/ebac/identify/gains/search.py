@@ -25,6 +25,8 @@ LARGEST = {"kp": 2.0, "kd": 0.01}
 LOOKS = (0.0, 0.25, 0.5, 0.75, 0.95)
 #: Where the default gains break a constraint, shares of them down to the first that keeps all.
 SHARES = (0.9, 0.8, 0.7, 0.6, 0.5, 0.4, 0.3, 0.2, 0.1)
+#: How finely COBYLA searches, as a share of the root of the largest gains.
+RESOLVED = 5e-3
 #: COBYLA starts from the default gains or what is left of them, and from this many of the best looks.
 STARTS = 2
 #: How much deeper than the default gains others may go, where no limit is given.
@@ -96,10 +98,13 @@ class GainsSearch:
             self._descend(start)
         best = min(self.tried, key=_merit)
         if best.broken:
+            names = [name.replace(" ", "_") for name in best.broken]
+            given = ", ".join(f"{name}=..." for name in names if hasattr(self.limits, name))
+            loosen = f"loosen them by limits=Limits({given}), or " * bool(given)
             raise ValueError(
                 "no pair of gains keeps the constraints: broken are "
-                f"{', '.join(best.broken)} even at kp = {best.kp:.3g}, kd = {best.kd:.3g} s; loosen them, or choose "
-                "another law"
+                f"{', '.join(best.broken)} even at kp = {best.kp:.3g}, kd = {best.kd:.3g} s; {loosen}choose another "
+                "law"
             )
         chosen = Candidate(**{**vars(best), "name": "chosen"})
         return default, turned, tuple(rules), chosen
@@ -139,7 +144,7 @@ class GainsSearch:
         optimiser.set_lower_bounds(np.zeros(2))
         optimiser.set_upper_bounds(np.ones(2))
         optimiser.set_initial_step(0.15)
-        optimiser.set_xtol_abs(5e-3)
+        optimiser.set_xtol_abs(RESOLVED)
         optimiser.set_maxeval(max(1, self.evaluations // (STARTS + 1)))
         optimiser.optimize(np.clip(np.sqrt(np.array([start.kp, start.kd]) / self.largest), 0, 1))
         carried.settle()
