@@ -197,12 +197,15 @@ def test_the_table_allows_the_mean_distance_and_no_largest_one() -> None:
     assert max(ratios) < 1  # neither the largest deviation nor the root mean square
     assert min(ratios) > 0.63
     assert max(ratios) < 0.89
-    bow = fit_line(
+    wave = fit_line(
         np.column_stack([np.linspace(0, 1, 4000), 1e-3 * np.sin(np.linspace(0, 40 * np.pi, 4000))])
     )
-    assert bow.deviation.error_m / bow.deviation.sd_m == pytest.approx(
+    assert wave.deviation.error_m / wave.deviation.sd_m == pytest.approx(
         2 * math.sqrt(2) / math.pi, abs=2e-3
     )
+    x = np.linspace(-1, 1, 4000)
+    bow = fit_line(np.column_stack([x, 1e-3 * x**2]))
+    assert bow.deviation.error_m / bow.deviation.sd_m == pytest.approx(0.861, abs=2e-3)
 
 
 # --- bad points ---
