@@ -383,6 +383,36 @@ def test_a_contract_that_inherits_asks_all_that_its_own_law_can_be_asked() -> No
     assert tests(OfCore) == tests(Alone) > tests(OfPython)
 
 
+class Lag:
+    """Follows the world with a lag, or at a limited rate of its force [N per tick]."""
+
+    def __init__(self, share: float, rate: float = math.inf) -> None:
+        self.share, self.rate, self.force = share, rate, 0.0
+
+    def reset(self) -> None:
+        self.force = 0.0
+
+    def step(self, port: ebac.Port) -> float:
+        change = self.share * (port.f_env - self.force)
+        self.force += max(-self.rate, min(self.rate, change))
+        return self.force
+
+
+@pytest.mark.parametrize(
+    "law", [Lag(0.02), Lag(0.9), Lag(1.0, rate=1e-3), Lag(1.0, rate=2.0), Lag(1.0, rate=100.0)]
+)
+def test_the_first_case_of_free_air_catches_every_lag_and_limit_of_rate(law: Lag) -> None:
+    class Slow(LawContract):
+        __test__ = False
+
+    Slow.law = law
+    (subject,) = Slow.subjects()
+    with pytest.raises(AssertionError, match="N at rest in free air, at -1 mm; a law that may"):
+        Slow().test_at_rest_and_out_of_contact_there_is_no_force(subject)
+    Slow.holds_force = True
+    Slow().test_at_rest_and_out_of_contact_there_is_no_force(subject)
+
+
 def test_a_finished_law_is_tested_on_the_device_that_it_was_made_for() -> None:
     class Finished(LawContract):
         __test__ = False

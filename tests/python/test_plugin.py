@@ -282,3 +282,45 @@ def test_a_subtly_active_law_is_caught(project: pytest.Pytester) -> None:
 def test_what_is_no_law_is_refused_when_the_class_is_made(project: pytest.Pytester) -> None:
     result = conformance(project, "3.0")
     assert "3.0 (float) is no law: it needs step(port) -> float and reset()" in told(result)
+
+
+WATCHED = """
+    from pathlib import Path
+    from ebac.testing import LawContract
+
+    class Watched:
+        def reset(self):
+            pass
+
+        def step(self, port):
+            with Path("seen.txt").open("a") as seen:
+                print(port, file=seen)
+            return port.f_env
+
+    class TestMine(LawContract):
+        law = Watched
+"""
+
+
+def test_the_cases_of_a_contract_are_the_same_in_every_run(project: pytest.Pytester) -> None:
+    """One law passed, and failed after hypothesis had kept an example. In CI hypothesis has a profile of its own."""
+    project.makepyfile(test_law=WATCHED)
+    runs = []
+    for _ in range(2):
+        (project.path / "seen.txt").unlink(missing_ok=True)
+        chosen = ("-k", "at_rest", "--hypothesis-profile=default")
+        project.runpytest_subprocess(*chosen).assert_outcomes(passed=1)
+        runs.append((project.path / "seen.txt").read_text())
+    assert runs[0] == runs[1]
+
+
+def test_a_profile_that_someone_loads_holds_for_the_contract_and_is_left_as_it_is() -> None:
+    code = """if True:
+        from hypothesis import settings
+        settings.register_profile("mine", derandomize=False, max_examples=7)
+        settings.load_profile("mine")
+        from ebac.testing.contract.numbers import inherited
+        print(inherited.derandomize, inherited.max_examples, settings.default == settings.get_profile("mine"))
+    """
+    run = subprocess.run([sys.executable, "-c", code], check=True, capture_output=True, text=True)
+    assert run.stdout.split() == ["False", "7", "True"]
