@@ -47,6 +47,18 @@ def test_a_variant_is_designed_anew_with_its_changes_on_top() -> None:
     assert changed(law, kp=0.3) == Variant("ebac", {"kp": 0.3, "guard": False})
 
 
+class OwnLaw:
+    REFUSED = (
+        r"^ebac.Variant takes a law of ebac.LAWS or its class; make a law of your own with other arguments, "
+        r"OwnLaw\(damping=...\)$"
+    )
+
+    def step(self, port: ebac.Port) -> float:
+        return port.f_env
+
+    def reset(self) -> None: ...
+
+
 @pytest.mark.parametrize(
     ("law", "changes", "kind", "message"),
     [
@@ -58,11 +70,15 @@ def test_a_variant_is_designed_anew_with_its_changes_on_top() -> None:
         (ebac.EBA, {"kp": 0.2}, TypeError, "EBA has no parameter 'kp'"),
         ("ebak", {}, KeyError, "no law is called 'ebak', did you mean"),
         (int, {}, TypeError, r"int is a class: give an instance of it, int\(...\)"),
-        (ebac.EBA(), {}, TypeError, "Variant takes a law of ebac.LAWS or its class, not EBA"),
+        (ebac.EBA(), {}, TypeError, "^ebac.Variant takes a law of ebac.LAWS or its class, not EBA"),
+        (3, {}, TypeError, r"^ebac.Variant takes a law of ebac.LAWS or its class, not 3 \(int\)$"),
+        (OwnLaw, {"damping": 2.0}, TypeError, OwnLaw.REFUSED),
+        (OwnLaw(), {"damping": 2.0}, TypeError, OwnLaw.REFUSED),
+        ("ebac", 3, TypeError, "^ebac.Variant takes changes by name, as in {'kp': 0.2}, not 3"),
     ],
 )
 def test_a_variant_that_cannot_be_is_refused_when_it_is_made(
-    law: Any, changes: dict[str, Any], kind: type[Exception], message: str
+    law: Any, changes: Any, kind: type[Exception], message: str
 ) -> None:
     with pytest.raises(kind, match=message):
         Variant(law, changes)

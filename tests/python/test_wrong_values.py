@@ -97,7 +97,7 @@ def trace() -> Any:
         (lambda t: W.preset(3), "ebac.worlds.preset takes the name of a world, not 3 (int)"),
         (
             lambda t: E.Variant("ebac", [1]),
-            "Variant takes changes by name, as in {'kp': 0.2}, not [1] (list)",
+            "ebac.Variant takes changes by name, as in {'kp': 0.2}, not [1] (list)",
         ),
         (
             lambda t: E.identify.Target.steps("a"),

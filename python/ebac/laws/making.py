@@ -86,7 +86,7 @@ def design(
         if is_core_law(made) and made.timing.dt != timing.dt:
             warnings.warn(
                 f"{law_name(made)} is made for dt = {made.timing.dt:g} s and runs at {timing.dt:g} s: give its name or "
-                f"class to have it designed, changes as in Variant({law_name(made)!r}, {{'kp': 0.2}})",
+                f"class to have it designed, changes as in ebac.Variant({law_name(made)!r}, {{'kp': 0.2}})",
                 stacklevel=3,
             )
     if not fitted and is_core_law(made):

@@ -40,8 +40,15 @@ class Variant:
 
     def __post_init__(self) -> None:
         """Check law and changes."""
-        require(self.law, (str, type), "Variant", "a law of ebac.LAWS or its class")
-        require(self.changes, Mapping, "Variant", "changes by name, as in {'kp': 0.2}")
+        require(self.changes, Mapping, "ebac.Variant", "changes by name, as in {'kp': 0.2}")
+        wanted = "a law of ebac.LAWS or its class"
+        own = self.law if isinstance(self.law, type) else type(self.law)
+        if self.changes and hasattr(own, "step") and not hasattr(own, "_simulate"):
+            made = f"{own.__name__}({', '.join(f'{name}=...' for name in self.changes)})"
+            raise TypeError(
+                f"ebac.Variant takes {wanted}; make a law of your own with other arguments, {made}"
+            )
+        require(self.law, (str, type), "ebac.Variant", wanted)
         kind = class_of(self.law)
         refuse_unknown(kind.__name__, self.changes, [field.name for field in kind.fields()])
         kind(**self.changes)

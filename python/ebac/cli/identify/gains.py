@@ -286,7 +286,7 @@ def _notes(result: GainsResult, file: Path | None) -> list[str]:
         f"{1e3 * (limits.overshoot or 0):.2f} mm, force {limits.force:.1f} N, current {limits.current:.2f} A, "
         f"noise gain {limits.noise_gain:g}, energy {1e3 * limits.energy:g} mJ.",
         f"Motor, drive and encoder are those of {whose}.",
-        f'In Python: ebac.laws.Variant("{result.name}", {{"kp": {kp:.4g}, "kd": {kd:.4g}}})',
+        f'In Python: ebac.Variant("{result.name}", {{"kp": {kp:.4g}, "kd": {kd:.4g}}})',
     ]
 
 
