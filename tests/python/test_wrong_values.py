@@ -103,6 +103,18 @@ def trace() -> Any:
             lambda t: E.identify.Target.steps("a"),
             "Target.steps takes times [s], not 'a' (str)",
         ),
+        (
+            lambda t: identify.fit_arm(identify.Recording.from_trace(t), "held"),
+            "ebac.identify.fit_arm takes a Target, such as Target.held(), or one for each recording, not 'held' (str)",
+        ),
+        (
+            lambda t: E.sweep("base", "ebac"),
+            "ebac.sweep takes a list of scenarios, not 'base' (str)",
+        ),
+        (
+            lambda t: E.plot.plot_walls("walls"),
+            "ebac.plot.plot_walls takes a Trace, or several, not 'walls' (str)",
+        ),
         (lambda t: E.plot.plot_trace(3), "ebac.plot.plot_trace takes a Trace, not 3 (int)"),
         (lambda t: E.plot.plot_world(3), "ebac.plot.plot_world takes a World, not 3 (int)"),
         (lambda t: E.plot.save(3, "x.png"), "ebac.plot.save takes a Figure, not 3 (int)"),

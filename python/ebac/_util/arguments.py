@@ -71,8 +71,10 @@ SYNONYMS = {
 
 
 def require(value: Any, types: type | tuple[type, ...], function: str, wanted: str) -> None:
-    """Raise TypeError unless a value is of one of the types; `wanted` names it for people."""
-    if not isinstance(value, types):
+    """Raise TypeError unless a value is of one of the types; `wanted` names it for people. A word is no sequence."""
+    kinds = types if isinstance(types, tuple) else (types,)
+    word = isinstance(value, str) and Sequence in kinds and str not in kinds
+    if word or not isinstance(value, kinds):
         raise TypeError(f"{function} takes {wanted}, not {shown(value)}")
 
 

@@ -93,7 +93,8 @@ def fit_arm(
     if targets is None:
         targets = [Target.recorded(r) for r in recordings]
     else:
-        require(targets, (Target, Sequence), "fit_arm", "a Target, or one for each recording")
+        wanted = "a Target, such as Target.held(), or one for each recording"
+        require(targets, (Target, Sequence), "ebac.identify.fit_arm", wanted)
         targets = [targets] * len(recordings) if isinstance(targets, Target) else targets
     free, own = several("free", free, least=0), several("own", own, least=0)
     require(fixed, (Mapping, NoneType), "fit_arm", "fixed values by name, as {'M0': 0.5}")
