@@ -143,6 +143,14 @@ def test_an_axis_that_is_not_there_is_refused(axis: int, run: Any) -> None:
         run("ebac", device=TWO, seconds=0.1).axis("x", axis)
 
 
+def test_an_unknown_column_of_another_program_says_what_reads_its_logs(tmp_path: Path) -> None:
+    log = tmp_path / "foreign.csv"
+    log.write_text("time,pos\n" + "".join(f"{k / 1000},0.01\n" for k in range(20)))
+    said = "no column is called 'x'; there are: t, pos; ebac.identify.load reads logs of other programs$"
+    with pytest.raises(KeyError, match=said):
+        ebac.contact(ebac.load(log))
+
+
 def test_an_unknown_column_lists_those_there_are(trace: ebac.Trace) -> None:
     assert "speed" not in trace
     with pytest.raises(KeyError, match=r"no column is called 'nonsense'; there are: tick, t, "):

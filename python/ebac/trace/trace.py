@@ -126,7 +126,10 @@ class Trace:
                 f"trace[{key!r}]: must be the name of a column, or two times [s] as in trace[1.0:2.5]"
             )
         if key not in self._data:
-            raise unknown_name("column", key, self._data, MEANT.get(key.lower(), ()))
+            error = unknown_name("column", key, self._data, MEANT.get(key.lower(), ()))
+            if "tick" not in self._data:  # rows of another program
+                error.args = (f"{error}; ebac.identify.load reads logs of other programs",)
+            raise error
         return self._data[key]
 
     def axis(self, name: str, axis: int = 0) -> NDArray[Any]:
