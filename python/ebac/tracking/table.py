@@ -5,7 +5,8 @@
 * the largest |d| is never below the root mean square. Error is below SD in all six columns: it is **not** the
   largest deviation, and not the root mean square either;
 * m never exceeds the root mean square. All six columns have m / SD in 0.64 to 0.88: a sine wave has 0.90, evenly
-  spread errors 0.87, one bow 0.86, normal ones 0.80, double-exponential ones 0.71. Error **can be the mean absolute distance**;
+  spread errors 0.87, one bow 0.86, normal ones 0.80, double-exponential ones 0.71. Error **can be the mean
+  absolute distance**;
 * were SD that of |d| about m, SD / Error would be 0.76 for normal errors; the table has 1.14 to 1.57, which needs tails
   longer than an exponential's. SD is the one **about the fitted path**.
 
