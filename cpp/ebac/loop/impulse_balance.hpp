@@ -40,8 +40,8 @@ using AllBalanceFacts = std::array<BalanceFacts, kMaxAxes>;
 ///
 ///   M (x_k - 2 x_(k-n) + x_(k-2n)) / (n dt)^2 = mean(F_hand - b v - f)
 ///
-/// so no velocity is estimated, and an encoder count weighs 2 M count / (n dt)^2: 0.14 N over 15 ms.
-/// Constant cost a tick: a triangle is two running sums.
+/// so no velocity is estimated, and an encoder count weighs 2 M count / (n dt)^2: 0.07 N over 15 ms
+/// for the reference device. Constant cost a tick: a triangle is two running sums.
 ///
 /// What the two sides may differ by: half to twice the mass; a tenth of the forces (scale of sensor
 /// and motor); all of the damping; the forces' change within a lag and a tick; a position that is
