@@ -11,7 +11,10 @@ from typer.testing import CliRunner
 
 import ebac
 from ebac._util import descriptions, formatting
-from ebac.cli import app, doubtful_device, doubtful_sensor
+from ebac._util.doubts import device as doubtful_device
+from ebac._util.doubts import length, motor
+from ebac._util.doubts import sensor as doubtful_sensor
+from ebac.cli import app
 from ebac.sensor import SensorConfig
 
 COMMANDS = ("wall", "paper", "laws", "specs", "presets", "bench")
@@ -313,7 +316,7 @@ def test_wall_takes_every_option_into_the_scenario() -> None:
         ("--wall-position 10 --world sphere", "Note: --wall-position = 10 m: the handle never reaches the wall"),
         ("--scenario far.toml", "far.toml: environment.position = 10 m: the handle never reaches the wall"),
         ("--wall-position 0.02 --hand-target 0.01", "Note: the wall stands at 0.02 m (--wall-position), and the target "
-         "of the hand comes to 0.01 m at most: no law meets the wall; give a nearer wall, or a target behind it by "
+         "of the hand comes to 0.01 m at most: the handle does not meet the wall; give a nearer wall, or a target behind it by "
          "--hand-target"),
         ("--wall-position 0.01", ""),
     ],
@@ -982,26 +985,18 @@ def test_a_configuration_whose_wall_or_sensor_is_likely_in_a_wrong_unit_is_noted
 )
 def test_what_the_motor_cannot_give_at_rest_is_said(torque: float, said: str) -> None:
     """The ideal rest needs 11.7 N; 0.053, 0.03 and 0.01 N m hold 10.6, 6 and 2 N, at the peak four times that."""
-    from ebac.cli.weak_motor import sentence
-
     scenario = ebac.Scenario(device=ebac.Device(motor=ebac.Motor(rated_torque=torque)))
-    assert sentence(scenario).startswith(said)
-    assert bool(sentence(scenario)) == bool(said)
+    assert motor.of_one(scenario).startswith(said)
+    assert bool(motor.of_one(scenario)) == bool(said)
 
 
-def test_hands_that_the_motor_is_too_weak_for_are_counted(
-    capsys: pytest.CaptureFixture[str],
-) -> None:
-    from ebac.cli import weak_motor
-
+def test_hands_that_the_motor_is_too_weak_for_are_counted() -> None:
     base = ebac.Scenario()
-    weak_motor.note(ebac.Operators.grid(), base)
-    assert capsys.readouterr().err == ""
+    assert motor.of_many(ebac.Operators.grid(), base) == ""
     weak = base.replace(
         device=base.device.replace(motor=base.device.motor.replace(rated_torque=0.01))
     )
-    weak_motor.note(ebac.Operators.grid(), weak)
-    told = " ".join(capsys.readouterr().err.split())
+    told = motor.of_many(ebac.Operators.grid(), weak)
     presses = [
         abs(s.hand.steady(ebac.ideal_rest(s))) for s in ebac.Operators.grid().scenarios(weak)
     ]
@@ -1010,16 +1005,11 @@ def test_hands_that_the_motor_is_too_weak_for_are_counted(
     assert f"{count} of the 60 hands press with more than the motor can give, 8 N" in told
 
 
-def test_a_weak_motor_is_distinguished_from_the_wall_on_where_it_is_too_weak(
-    capsys: pytest.CaptureFixture[str],
-) -> None:
+def test_a_weak_motor_is_distinguished_from_the_wall_on_where_it_is_too_weak() -> None:
     """It said the count of one wall of all of the search, and the table beside it had 60 of 60 hands."""
-    from ebac.cli import weak_motor
-
     device = ebac.Device(motor=ebac.Motor(rated_torque=0.008))
     base, hands = ebac.Scenario(device=device), ebac.Operators.grid()
-    weak_motor.note_walls(hands, base, (500.0, 100.0, 400.0))
-    told = " ".join(capsys.readouterr().err.split())
+    told = motor.of_walls(hands, base, (500.0, 100.0, 400.0))
     assert (
         "at a wall of 0.4 kN/m and stiffer, hands press with more than the motor can give, 6.4 N"
         in told
@@ -1028,23 +1018,16 @@ def test_a_weak_motor_is_distinguished_from_the_wall_on_where_it_is_too_weak(
         "for 12 of the 60 hands there, for 24 at 0.5 kN/m; this does not concern softer walls"
         in told
     )
-    weak_motor.note_walls(hands, base, (500.0,))
-    told = " ".join(capsys.readouterr().err.split())
+    told = motor.of_walls(hands, base, (500.0,))
     assert "at a wall of 0.5 kN/m, hands press" in told
-    assert told.endswith("for 24 of the 60 hands there.")
-    weak_motor.note_walls(hands, base, (100.0,))
-    assert capsys.readouterr().err == ""
+    assert told.endswith("for 24 of the 60 hands there")
+    assert motor.of_walls(hands, base, (100.0,)) == ""
 
 
-def test_runs_of_many_hands_that_are_too_short_are_named(
-    capsys: pytest.CaptureFixture[str],
-) -> None:
-    from ebac.cli.studies import short_runs
-
-    short_runs.note(ebac.Scenario(seconds=0.5))
-    assert capsys.readouterr().err == ""
-    short_runs.note(ebac.Scenario(seconds=0.05))
-    assert "--seconds = 0.05 s: too short to judge a contact" in capsys.readouterr().err
+def test_runs_of_many_hands_that_are_too_short_are_named() -> None:
+    assert length.of_many(ebac.Scenario(seconds=0.5)) == ""
+    told = length.of_many(ebac.Scenario(seconds=0.05), "--seconds")
+    assert told.startswith("--seconds = 0.05 s: too short to judge a contact")
 
 
 def test_the_wall_puts_other_parameters_of_a_law_beside_it() -> None:

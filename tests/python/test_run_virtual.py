@@ -13,7 +13,8 @@ import typer
 from typer.testing import CliRunner
 
 import ebac
-from ebac.cli import app, doubtful_run
+from ebac._util.doubts import configuration as doubtful
+from ebac.cli import app
 from ebac.cli.files import FigureOptions
 from ebac.cli.run import names
 from ebac.cli.run.live import lines
@@ -312,17 +313,17 @@ def test_the_limits_of_the_drives_count_on_a_virtual_clock_too(
     trace = weak.simulate(seconds=1, bus_time=bus_time)
     assert np.abs(trace["bus.actual_permille"]).max() == 102
     assert np.abs(known.simulate(seconds=1)["bus.actual_permille"]).max() > 102
-    (said,) = doubtful_run.doubts(weak)
+    (said,) = doubtful.doubts(weak)
     assert "node 1: limits.max_" in said
     assert "lets through 0.1005 A, 1.08 N at the handle, less than limits.peak_current" in said
-    assert doubtful_run.doubts(known) == []
+    assert doubtful.doubts(known) == []
 
 
 def test_drives_that_let_through_more_than_the_motor_is_to_take_are_noted() -> None:
     known = Configuration.load(EXAMPLE)
     device = known.device.replace(drive=known.device.drive.replace(peak_ratio=2.0))
     low = known.replace(device=device, limits=ebac.Limits.of(device))
-    said = doubtful_run.doubts(low)
+    said = doubtful.doubts(low)
     keys = ["limits.max_torque", "limits.max_current", "motor.peak_torque"]
     assert [text.partition(": ")[2].partition(" = ")[0] for text in said] == keys
     assert said[0] == (
@@ -338,7 +339,7 @@ def test_another_motor_without_a_thermal_time_of_its_own_is_noted() -> None:
             f'[bus]\ndrives = "handle"\n[device]\npreset = "reference"\n{text}'
         )
         device = known.device.replace(motor=known.device.motor.replace(**motor))
-        found = doubtful_run.doubts(known.replace(device=device))
+        found = doubtful.doubts(known.replace(device=device))
         return [one for one in found if "thermal" in one]
 
     (note,) = said("", rotor_inertia=14e-7)
@@ -350,20 +351,20 @@ def test_another_motor_without_a_thermal_time_of_its_own_is_noted() -> None:
 def test_drives_with_the_sync_period_of_another_rate_are_noted() -> None:
     known = Configuration.load(EXAMPLE)
     slower = known.replace(timing=known.timing.replace(dt=2e-3))
-    (note,) = [one for one in doubtful_run.doubts(slower) if "sync.period" in one]
+    (note,) = [one for one in doubtful.doubts(slower) if "sync.period" in one]
     assert note.startswith(
         "nodes 1, 2 of the built-in joystick: sync.period = 0.001 s in its profile, timing.dt = 0.002 s: `ebac run` "
     )
     assert "give sync.period = 0.002 in the profile and `ebac drive apply` it" in note
-    assert doubtful_run.doubts(slower.replace(setup="apply")) == [], "a run writes it"
+    assert doubtful.doubts(slower.replace(setup="apply")) == [], "a run writes it"
     without_drives = Configuration.from_toml("[timing]\ndt = 2e-3\n")
-    assert not [one for one in doubtful_run.doubts(without_drives) if "sync.period" in one]
+    assert not [one for one in doubtful.doubts(without_drives) if "sync.period" in one]
 
 
 def test_limits_that_hardly_protect_are_noted() -> None:
     known = Configuration.load(EXAMPLE)
     loose = known.replace(limits=known.limits.replace(speed=100.0, end=1.0, pause=0.2))
-    said = doubtful_run.doubts(loose)
+    said = doubtful.doubts(loose)
     assert [text.partition(":")[0] for text in said] == [
         "limits.speed = 100 m/s",
         "limits.end = 1 m",
@@ -375,7 +376,7 @@ def test_a_wall_that_no_table_names_is_noted() -> None:
     text = EXAMPLE.read_text()
     before, _, rest = text.partition("[environment]")
     bare = Configuration.from_toml(before + rest[rest.index("[law]") :], name="bare")
-    (said,) = doubtful_run.doubts(bare)
+    (said,) = doubtful.doubts(bare)
     assert "no [environment]: the default wall of 10000 N/m stands at 0 m" in said
 
 
@@ -385,12 +386,12 @@ def test_a_law_made_for_another_device_is_noted(as_variant: bool) -> None:
     changes = {"mass": 0.6, "damping": 2.0, "peak_force": 42.38, "kp": 0.2}
     law = ebac.laws.Variant("ebac", changes) if as_variant else "ebac"
     other = known.replace(law=law, changes={} if as_variant else changes)
-    (said,) = doubtful_run.doubts(other)  # neither what agrees, nor what no device has
+    (said,) = doubtful.doubts(other)  # neither what agrees, nor what no device has
     assert said.startswith("law.mass = 0.6 kg, but the device has 0.25 kg: ")
     several = {"count": 1e-4, "current_lag": 1e-3, "peak_force": 20.0}
-    said = doubtful_run.doubts(known.replace(changes=several)).pop(0)
+    said = doubtful.doubts(known.replace(changes=several)).pop(0)
     assert said.startswith("law.count = 0.0001 m, but the device has 3.068e-05 m: ")
-    assert len(doubtful_run.doubts(known.replace(changes=several))) == 3
+    assert len(doubtful.doubts(known.replace(changes=several))) == 3
 
 
 def test_a_sensor_of_the_device_without_one_of_the_run_is_noted() -> None:
@@ -398,15 +399,15 @@ def test_a_sensor_of_the_device_without_one_of_the_run_is_noted() -> None:
     before, _, rest = text.partition("[sensor]")
     bare = before + rest[rest.index("[recording]") :]
     described = bare + "[device.sensor]\nnoise = 0.05\n"
-    (said,) = doubtful_run.doubts(Configuration.from_toml(described, name="bare"))
+    (said,) = doubtful.doubts(Configuration.from_toml(described, name="bare"))
     assert said.startswith("[device.sensor] without [sensor]: this run has no force sensor")
     for quiet in (bare, text + "[device.sensor]\nnoise = 0.05\n", f"{described}fitted = false\n"):
-        assert doubtful_run.doubts(Configuration.from_toml(quiet, name="quiet")) == []
+        assert doubtful.doubts(Configuration.from_toml(quiet, name="quiet")) == []
 
 
 def test_a_soft_wall_behind_the_stops_is_noted() -> None:
     known = Configuration.load(EXAMPLE)
-    (said,) = doubtful_run.doubts(known.replace(limits=known.limits.replace(edge=0.06, end=0.07)))
+    (said,) = doubtful.doubts(known.replace(limits=known.limits.replace(edge=0.06, end=0.07)))
     assert "limits.edge = 0.06 m: the stops lie before it, 0.05236 m from the middle" in said
 
 

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING
 
 from ebac._util.arguments import unknown
-from ebac.cli import doubtful_wall
+from ebac.cli import doubtful
 from ebac.cli.own_law import FORM, own_law
 
 if TYPE_CHECKING:
@@ -171,7 +171,7 @@ def condition_names(given: Sequence[str]) -> list[str]:
             conditions([name])
         except ValueError as error:
             raise ValueError(f"--{error}") from None
-    doubtful_wall.note_conditions(names)
+    doubtful.note_conditions(names)
     return names
 
 

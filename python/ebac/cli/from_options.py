@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from ebac.cli import doubtful_wall, output, setting
+from ebac.cli import doubtful, output, setting
 
 if TYPE_CHECKING:
     from ebac._core import Device, Hand
@@ -41,7 +41,7 @@ def _scenario(given: dict[str, Any], seconds: float | None) -> Scenario:
             observer=_observer(given, device),
         ),
     )  # fmt: skip
-    doubtful_wall.note_place(given.get("wall_position"), file, made)
+    doubtful.note_place(given.get("wall_position"), file, made)
     return made
 
 
@@ -69,7 +69,7 @@ def _observer(given: dict[str, Any], device: Device) -> Any:
 def wall(usual: Environment, group: Any) -> Environment:
     """Return the usual wall with what its options change, or the world of --world."""
     given = group if isinstance(group, dict) else vars(group)
-    doubtful_wall.note_option(given.get("wall_stiffness"))
+    doubtful.note_stiffness(given.get("wall_stiffness"))
     if given.get("world") is not None:
         return setting.choose_world(
             given["world"],

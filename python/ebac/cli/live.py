@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from ebac.cli import by_name, doubtful_run, options, output, setting
+from ebac.cli import by_name, doubtful, options, output, setting
 from ebac.cli.drive.options import Yes, reporting
 from ebac.cli.files import new_file
 
@@ -189,7 +189,7 @@ def _serve(
     with output.refusing():
         known = None if file is None else Configuration.load(file)
         if known is not None:
-            doubtful_run.note(str(file), known)
+            doubtful.note_configuration(str(file), known)
             known = known.replace(**observer_change(known, settings.pop("observer")))
         given = known if scenario is None else _scenario_of(scenario)
         wanted = None if law is None else by_name.designed_law(law, "the page")

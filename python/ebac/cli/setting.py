@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ebac import presets
-from ebac.cli import by_name, by_option, doubtful_device, doubtful_drives, doubtful_wall, output
+from ebac.cli import by_name, by_option, doubtful, output
 
 if TYPE_CHECKING:
     from ebac._core import Device, Hand, Timing
@@ -30,8 +30,8 @@ def base_scenario(file: Path | None) -> Scenario:
     found = Scenario.load(file)
     if not parsed(read_text(file)):
         output.note(f"{file}: sets nothing, so this is the reference device at the reference wall")
-    doubtful_device.note(file, found.device)
-    doubtful_wall.note_file(file, found.environment)
+    doubtful.note_device(file, found.device)
+    doubtful.note_world(file, found.environment)
     return found
 
 
@@ -48,10 +48,10 @@ def device_base(file: Path | None) -> Scenario:
     from ebac.hardware import Configuration
 
     known = Configuration.load(file, device_alone=True)
-    doubtful_drives.note(file, known)
+    doubtful.note_drives(file, known)
     found = known.scenario()
-    doubtful_device.note(file, found.device)
-    doubtful_wall.note_file(file, found.environment)
+    doubtful.note_device(file, found.device)
+    doubtful.note_world(file, found.environment)
     return found
 
 
@@ -213,7 +213,7 @@ def choose_device(device: Device, options: Mapping[str, Any]) -> Device:
             before = chosen
             changed = getattr(chosen, part).replace(**{field: options[option]})
             chosen = chosen.replace(**{part: changed})
-            doubtful_device.note_change(f"--{option.replace('_', '-')}", before, chosen)
+            doubtful.note_change(f"--{option.replace('_', '-')}", before, chosen)
     return chosen
 
 

@@ -92,7 +92,7 @@ def _chosen(name: str | None, scenario: Path | None) -> tuple[str, Device, str]:
 
 
 def _of_file(file: Path) -> tuple[Device, str]:
-    from ebac.cli import doubtful_run
+    from ebac.cli import doubtful
     from ebac.scenario_text import is_configuration
 
     try:
@@ -105,7 +105,7 @@ def _of_file(file: Path) -> tuple[Device, str]:
         from ebac.hardware import Configuration
 
         known = Configuration.load(file, device_alone=True)
-        doubtful_run.note(file, known)
+        doubtful.note_configuration(file, known)
         preset = parsed(known.text).get("device", {}).get("preset", "joystick")
         device, base = known.device, f"device preset {preset}"
     return device, f"what it leaves out is that of the {base}"

@@ -12,8 +12,8 @@ from typing import TYPE_CHECKING, Annotated, Any, TypeAlias
 import typer
 
 from ebac._util.arguments import unknown
-from ebac.cli import interrupts, output
-from ebac.cli.drive import doubtful_profile, without_can
+from ebac.cli import doubtful, interrupts, output
+from ebac.cli.drive import without_can
 
 if TYPE_CHECKING:
     from ebac.drives import Drive, DriveBus, Network, Sheet
@@ -271,7 +271,7 @@ def network_of(profile: str, node: list[int] | None, where: BusOptions) -> Netwo
         library.check_stall(network)
         if (sheet := sheet_of(where)) is not None:
             library.check_sheet(network, sheet)
-    doubtful_profile.note(network)
+    doubtful.note_profiles(network)
     return network
 
 

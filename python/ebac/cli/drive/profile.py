@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from ebac._util.arguments import unknown
-from ebac.cli import doubtful_device, output, setting
+from ebac.cli import doubtful, output, setting
 from ebac.cli.drive.options import profiles, reporting
 
 if TYPE_CHECKING:
@@ -106,7 +106,7 @@ def _device(file: Path) -> Device:
     source = Source(name=str(file), text=text)
     if kind_of(source.table) == CONFIGURATION:
         device = read_device(source)
-        doubtful_device.note(file, device)
+        doubtful.note_device(file, device)
     else:
         device = setting.base_scenario(file).device
     table = source.table.get("device", {})

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ebac.cli import by_name, doubtful_run, from_options, options, setting
+from ebac.cli import by_name, doubtful, from_options, options, setting
 
 if TYPE_CHECKING:
     from ebac.hardware import Configuration
@@ -26,7 +26,7 @@ def chosen(
     from ebac.hardware.world_place import check_reached
 
     known = Configuration.load(file)
-    doubtful_run.note(file, known)
+    doubtful.note_configuration(file, known)
     changes: dict[str, Any] = {
         "environment": from_options.wall(known.environment, wall),
         "hand": from_options.hand(known.hand, person),

@@ -10,18 +10,18 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from ebac._util.doubts.wall import MOST
 from ebac.cli import (
     by_name,
     changed_laws,
-    doubtful_wall,
+    doubtful,
     from_options,
     interrupts,
     options,
     output,
-    weak_motor,
 )
 from ebac.cli.files import ResultOptions
-from ebac.cli.studies import short_runs, study_results
+from ebac.cli.studies import study_results
 
 if TYPE_CHECKING:
     from ebac.scenario import Scenario
@@ -96,8 +96,8 @@ def stiffest(
             "threads": threads,
             **({"stiffnesses": wall_stiffness} if wall_stiffness else {}),
         }
-        weak_motor.note_walls(given["population"], base, wall_stiffness or LADDER)
-        short_runs.note(given["base"])
+        doubtful.note_weak_motor_at(wall_stiffness or LADDER, given["population"], base)
+        doubtful.note_short(given["base"])
     folder = to.folder("stiffest", as_json=as_json, resume=study_results.BUNDLES * resume)
     found = _run(laws, given, folder, resume, quiet=as_json)
     to.report(
@@ -124,11 +124,9 @@ def _check(share: float, stiffnesses: Sequence[float]) -> None:
 
     require_share("--share", share)
     for stiffness in stiffnesses:
-        if not 0 < stiffness <= doubtful_wall.MOST:
-            raise ValueError(
-                f"--wall-stiffness = {stiffness:g} N/m: must lie in (0, {doubtful_wall.MOST:g}] N/m"
-            )
-        doubtful_wall.note_option(stiffness)
+        if not 0 < stiffness <= MOST:
+            raise ValueError(f"--wall-stiffness = {stiffness:g} N/m: must lie in (0, {MOST:g}] N/m")
+        doubtful.note_stiffness(stiffness)
 
 
 def _run(

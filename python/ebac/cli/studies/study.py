@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from ebac.cli import by_name, changed_laws, from_options, interrupts, options, output, weak_motor
+from ebac.cli import by_name, changed_laws, doubtful, from_options, interrupts, options, output
 from ebac.cli.files import PANEL, ResultOptions
-from ebac.cli.studies import replaced, short_runs, study_results
+from ebac.cli.studies import replaced, study_results
 
 if TYPE_CHECKING:
     from ebac.laws import AnyLaw
@@ -91,8 +91,8 @@ def study(
             "threads": threads,
         }
         replaced.note(given["base"], given["conditions"])
-        weak_motor.note(people, given["base"])
-        short_runs.note(given["base"])
+        doubtful.note_weak_motor(people, given["base"])
+        doubtful.note_short(given["base"])
     folder = to.folder("study", as_json=as_json, resume=study_results.BUNDLES * resume)
     found = _run(people, laws, given, folder, resume, quiet=as_json)
     to.report(

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, NoReturn, TypeAlias
 
 from ebac._util.file_names import file_name
-from ebac.cli import output, weak_motor
+from ebac.cli import output
 from ebac.cli.files import ResultOptions, new_file
 
 if TYPE_CHECKING:
@@ -137,13 +137,14 @@ def show(
 ) -> None:
     """Print the table, a few laws at a time, that of the bodies, and what was simulated."""
     from ebac._util import descriptions
+    from ebac._util.doubts import motor
     from ebac.metrics.unjudged import no_ideal_rest
     from ebac.metrics.world_contact import LINES as BODY_LINES
 
     show_contacts(contacts)
     if why := no_ideal_rest(scenario):
         output.say(f"Not judged exact, there is no ideal rest: {why}.")
-    elif weak := weak_motor.sentence(scenario):
+    elif weak := motor.of_one(scenario):
         output.say(weak)
     if scenario.device.axes > 1:
         output.say(

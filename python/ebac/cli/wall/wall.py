@@ -12,7 +12,7 @@ import typer
 from ebac.cli import (
     by_name,
     changed_laws,
-    doubtful_wall,
+    doubtful,
     engine_options,
     from_options,
     options,
@@ -171,7 +171,7 @@ def _run(
         wall_results.report_fault(fault, out)
     for trace in traces:
         _note_left(trace, scenario)
-    doubtful_wall.note_untouched(scenario, contacts)
+    doubtful.note_untouched(scenario, contacts)
     if as_json:
         typer.echo(text)
         return

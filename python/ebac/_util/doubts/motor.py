@@ -1,11 +1,9 @@
-"""What the motor of a device cannot give: a sentence for one hand, a note for many."""
+"""What the motor of a device cannot give at rest: to one hand, or to some of many."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable
 from typing import TYPE_CHECKING
-
-from ebac.cli import output
 
 if TYPE_CHECKING:
     from ebac.operators import Operators
@@ -15,7 +13,7 @@ if TYPE_CHECKING:
 WARM = 1.25
 
 
-def sentence(scenario: Scenario) -> str:
+def of_one(scenario: Scenario) -> str:
     """Return what the motor cannot give at the ideal rest, or not for long; else nothing."""
     force, device = _at_rest(scenario), scenario.device
     needs = f"the ideal rest needs {force:.3g} N, and the motor"
@@ -29,30 +27,31 @@ def sentence(scenario: Scenario) -> str:
     return ""
 
 
-def note(population: Operators, base: Scenario) -> None:
-    """Say on stderr for how many hands the motor is too weak at their ideal rest."""
-    if weak := _weak(population, base):
-        output.note(
-            f"{weak} of the {len(population)} hands press with more than the motor can give, "
-            f"{_given(base)}: no law can be exact for them"
-        )
+def of_many(population: Operators, base: Scenario) -> str:
+    """Return for how many hands the motor is too weak at their ideal rest; nothing where it is for none."""
+    if not (weak := _weak(population, base)):
+        return ""
+    return (
+        f"{weak} of the {len(population)} hands press with more than the motor can give, "
+        f"{_given(base)}: no law can be exact for them"
+    )
 
 
-def note_walls(population: Operators, base: Scenario, stiffnesses: Iterable[float]) -> None:
-    """Say on stderr from which wall [N/m] on the motor is too weak for hands, as on a stiffer one they press harder."""
+def of_walls(population: Operators, base: Scenario, stiffnesses: Iterable[float]) -> str:
+    """Return from which wall [N/m] on the motor is too weak for hands, as on a stiffer one they press harder."""
     from ebac._core import Wall
 
     wall = base.environment
     if not isinstance(wall, Wall):
-        return
+        return ""
     walls = {one: base.replace(environment=wall.replace(stiffness=one)) for one in stiffnesses}
     weak = {one: _weak(population, at) for one, at in sorted(walls.items())}
     first, last = next((one for one, count in weak.items() if count), None), max(weak, default=0.0)
     if first is None:
-        return
+        return ""
     harder = "" if weak[first] == weak[last] else f", for {weak[last]} at {last / 1e3:g} kN/m"
     softer = "" if first == min(weak) else "; this does not concern softer walls"
-    output.note(
+    return (
         f"at a wall of {first / 1e3:g} kN/m{'' if first == last else ' and stiffer'}, hands press with more than the "
         f"motor can give, {_given(base)}: no law can be exact for {weak[first]} of the {len(population)} hands "
         f"there{harder}{softer}"

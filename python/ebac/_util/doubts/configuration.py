@@ -2,17 +2,9 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ebac.cli import (
-    doubtful_device,
-    doubtful_drives,
-    doubtful_law,
-    doubtful_sensor,
-    doubtful_wall,
-    output,
-)
+from ebac._util.doubts import drives, law
 
 if TYPE_CHECKING:
     from ebac.hardware import Configuration
@@ -32,22 +24,13 @@ PROTECTS = (
 LOOSE = 10
 
 
-def note(file: Path | str, known: Configuration) -> None:
-    """Say on stderr what of a configuration is likely not meant: of device, wall, force sensor, and their limits."""
-    doubtful_device.note(file, known.device)
-    doubtful_wall.note_file(file, known.environment)
-    doubtful_sensor.note(file, known.sensor)
-    for text in doubts(known):
-        output.note(f"{file}: {text}")
-
-
 def doubts(known: Configuration) -> list[str]:
     """Return a sentence for each number that is likely not meant, with the remedy."""
     return [
         *_default_wall(known),
         *_weight_of_the_joystick(known),
         *_edge_behind_the_stops(known),
-        *doubtful_drives.doubts(known),
+        *drives.doubts(known),
         *_winding_of_the_reference(known),
         *_loose_limits(known),
         *_sensor_of_the_device_alone(known),
@@ -58,7 +41,7 @@ def doubts(known: Configuration) -> list[str]:
 def _other_device_of_the_law(known: Configuration) -> list[str]:
     device, timing = known.device, known.timing
     has_sensor = known.sensor is not None
-    return doubtful_law.doubts(known.law, known.changes, device, timing, sensor=has_sensor)
+    return law.doubts(known.law, known.changes, device, timing, sensor=has_sensor)
 
 
 def _winding_of_the_reference(known: Configuration) -> list[str]:

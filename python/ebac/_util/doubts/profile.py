@@ -5,8 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from ebac.cli import output
-
 if TYPE_CHECKING:
     from ebac.drives import Network
     from ebac.drives.profile import Profile
@@ -22,12 +20,6 @@ _OF_RATED = (
 PEAK = 5.0
 #: How long a drive may wait for a torque [s]: a loop sends a thousand or so a second.
 WAIT = 0.1
-
-
-def note(network: Network) -> None:
-    """Print on stderr what of the profiles of a network is likely not meant."""
-    for text in doubts(network):
-        output.note(text)
 
 
 def doubts(network: Network) -> list[str]:

@@ -2,30 +2,22 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import TYPE_CHECKING
-
-from ebac.cli import output
 
 if TYPE_CHECKING:
     from ebac.hardware import Configuration
 
 
-def note(file: Path | str, known: Configuration) -> None:
-    """Print on stderr in what the drives are for another motor: a command that looks at the device alone goes on."""
-    for text in _other_motor(known):
-        output.note(f"{file}: {text}")
-
-
 def doubts(known: Configuration) -> list[str]:
     """Return a sentence for each value of the drives that is likely not meant, with the remedy."""
-    return _other_motor(known) or [*_weak(known), *_strong(known), *_sync(known)]
+    return other_motor(known) or [*_weak(known), *_strong(known), *_sync(known)]
 
 
-def _other_motor(known: Configuration) -> list[str]:
-    from ebac.hardware.fit import other_motor
+def other_motor(known: Configuration) -> list[str]:
+    """Return in what the drives are for another motor than that of the device."""
+    from ebac.hardware import fit
 
-    found = other_motor(known.device, known.drives)
+    found = fit.other_motor(known.device, known.drives)
     return [f"bus.drives: {found}"] if found else []
 
 

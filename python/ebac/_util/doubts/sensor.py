@@ -2,22 +2,13 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import TYPE_CHECKING
-
-from ebac.cli import output
 
 if TYPE_CHECKING:
     from ebac.sensor import SensorConfig
 
 #: Coarsest step of a force that a sensor for a hand has [N], and of a torque [N m].
 COARSEST = {"counts_per_force": (0.25, "N"), "counts_per_torque": (0.025, "N m")}
-
-
-def note(file: Path | str, sensor: SensorConfig | None) -> None:
-    """Say on stderr which counts of a sensor are likely in a wrong unit; nothing without a sensor."""
-    for text in () if sensor is None else doubts(sensor):
-        output.note(f"{file}: {text}")
 
 
 def doubts(sensor: SensorConfig) -> list[str]:

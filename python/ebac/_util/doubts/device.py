@@ -3,12 +3,10 @@
 from __future__ import annotations
 
 from math import radians
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ebac._core import Linear
 from ebac._util.rated_current import LOOK, RATIO, contradiction
-from ebac.cli import output
 
 if TYPE_CHECKING:
     from ebac._core import Device
@@ -23,30 +21,15 @@ COARSE = 0.1
 NOISE, CURRENT_LAG, GRAVITY = 1.0, 5e-3, 9.82
 #: No motor takes so many times its continuous current when it is stalled.
 STALL = 200.0
-#: Option that takes the force sensor off a device, or gives it one.
-SENSOR_OFF = "--device-sensor"
 #: No lever turns farther from its middle [rad], nor moves a cable at its drum farther [m].
 TURN, WAY = 1.6, 1.0
 
 
-def note(file: Path | str, device: Device) -> None:
-    """Say on stderr what of a device is doubtful."""
-    for text in doubts(device):
-        output.note(f"{file}: {text}")
+def doubts(device: Device, *, no_observer: str = "Scenario(observer=False)") -> list[str]:
+    """Return a sentence for each number that is doubtful: its value, what is usual, and where to look.
 
-
-def note_change(option: str, before: Device, after: Device) -> None:
-    """Say on stderr what an option makes doubtful of a device."""
-    known = doubts(before)
-    if option == SENSOR_OFF and not after.sensor.fitted:  # its noise is meant to be unused
-        known += _unused_noise(after)
-    for text in doubts(after):
-        if text not in known:
-            output.note(f"{option}: {text}")
-
-
-def doubts(device: Device) -> list[str]:
-    """Return a sentence for each number that is doubtful: its value, what is usual, and where to look."""
+    `no_observer` is how the reader turns the observer off.
+    """
     motor = device.motor
     current = motor.current(motor.rated_torque)
     found = []
@@ -68,7 +51,7 @@ def doubts(device: Device) -> list[str]:
     if device.sensor.fitted and device.sensor.quantum >= COARSE:
         found.append(
             f"device.sensor.quantum = {device.sensor.quantum:g} N: with steps of the force from {COARSE:g} N on `ebac` "
-            "with the observer is not quiet and can lose walls; --no-observer runs it on the encoder alone"
+            f"with the observer is not quiet and can lose walls; {no_observer} runs it on the encoder alone"
         )
     found += _unused_noise(device)
     found += _single_numbers(device)
@@ -85,6 +68,14 @@ def doubts(device: Device) -> list[str]:
             "(g x 1e-3), rotor_inertia in kg m^2 (g cm^2 x 1e-7)"
         )
     return found
+
+
+def of_change(before: Device, after: Device, *, no_observer: str) -> list[str]:
+    """Return what a change makes doubtful of a device; who takes its force sensor off means the noise to be unused."""
+    known = doubts(before, no_observer=no_observer)
+    if before.sensor.fitted:
+        known += _unused_noise(after)
+    return [text for text in doubts(after, no_observer=no_observer) if text not in known]
 
 
 def _unused_noise(device: Device) -> list[str]:
