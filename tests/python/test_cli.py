@@ -316,8 +316,8 @@ def test_wall_takes_every_option_into_the_scenario() -> None:
         ("--wall-position 10 --world sphere", "Note: --wall-position = 10 m: the handle never reaches the wall"),
         ("--scenario far.toml", "far.toml: environment.position = 10 m: the handle never reaches the wall"),
         ("--wall-position 0.02 --hand-target 0.01", "Note: the wall stands at 0.02 m (--wall-position), and the target "
-         "of the hand comes to 0.01 m at most: the handle does not meet the wall; give a nearer wall, or a target behind it by "
-         "--hand-target"),
+         "of the hand comes to 0.01 m at most: the handle does not meet the wall; give a nearer wall, or a target "
+         "behind it by --hand-target"),
         ("--wall-position 0.01", ""),
     ],
 )  # fmt: skip

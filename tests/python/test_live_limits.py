@@ -15,9 +15,9 @@ from typer.testing import CliRunner
 import ebac
 from ebac import datasets, worlds
 from ebac._core import Disc, Free, Wall
+from ebac._util.surfaces import distances_at
 from ebac.cli import app
 from ebac.cli.catalogue.contact_at_place import met
-from ebac.hardware.world_place import distances_at
 from ebac.live import Session
 from ebac.live.device_limits import DeviceLimits, surface_of
 from ebac.live.surface import surface

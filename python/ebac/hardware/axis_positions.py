@@ -6,26 +6,18 @@ from collections.abc import Sequence
 from dataclasses import asdict, dataclass
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
-from ebac._core import _World
+from ebac._util.surfaces import GRAZE, PUSH, distances_at, push_at
 from ebac.drives.errors import DriveError
 from ebac.drives.state import State
 from ebac.hardware.backends import hardware, simulated
 from ebac.hardware.drive_setup import drives_at
-from ebac.hardware.world_place import GRAZE, distances_at, ends_of
+from ebac.hardware.world_place import ends_of
 from ebac.hardware.zero import from_zero
 
 if TYPE_CHECKING:
     from ebac.hardware.backends import Backend
     from ebac.hardware.configuration import Configuration
     from ebac.scenario import Environment
-
-
-#: A handle that is pushed harder [N] where it stands inside the virtual world does not begin outside.
-PUSH = 1.0
-#: In the centre of a disc its force has no direction; this far beside it, it has [m].
-_OFF_CENTRE = 1e-9
 
 
 class PositionError(DriveError):
@@ -163,7 +155,7 @@ def check_outside(
     inside = {
         name: -way for name, way in distances(known, positions, environment).items() if way < -GRAZE
     }
-    if not inside or (force := _push(known, positions, environment)) < PUSH:
+    if not inside or (force := push_at(environment, _place(known, positions))) < PUSH:
         return
     depths = " and ".join(
         f"{1e3 * depth:.2f} mm inside the {name}" for name, depth in inside.items()
@@ -173,16 +165,6 @@ def check_outside(
         f"{1e3 * GRAZE:g} mm inside. Nothing has power. Move the handle out by hand, or give the world another place: "
         "[environment] is in metres from the zero of the encoders"
     )
-
-
-def _push(known: Configuration, positions: Sequence[AxisPosition], environment: Any) -> float:
-    """Return the force of the virtual world on the handle at rest [N]."""
-    at = known.device.kinematics.forward([one.angle_rad for one in positions])
-    if isinstance(environment, _World):
-        (touch,) = environment.walk([[*at, 0.0, 0.0][:3]])  # type: ignore[attr-defined]  # it has bodies
-        return float(np.linalg.norm(touch.force))
-    beside = at + _OFF_CENTRE
-    return float(np.linalg.norm(environment.force(beside, np.zeros_like(at))))
 
 
 def distances(
@@ -199,5 +181,10 @@ def distances(
     environment : Free, Wall, Corner, Disc or worlds.World, optional
         The virtual world; that of the configuration, if not given.
     """
-    at = known.device.kinematics.forward([one.angle_rad for one in positions])
-    return distances_at(known.environment if environment is None else environment, list(at))
+    world = known.environment if environment is None else environment
+    return distances_at(world, _place(known, positions))
+
+
+def _place(known: Configuration, positions: Sequence[AxisPosition]) -> list[float]:
+    """Return the coordinates of the handle [m]."""
+    return list(known.device.kinematics.forward([one.angle_rad for one in positions]))

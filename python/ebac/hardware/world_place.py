@@ -1,20 +1,18 @@
-"""Whether the handle can reach the virtual world, and how far it is from it."""
+"""Whether the handle can reach the virtual world, and whether another world leaves it outside."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Sequence
 from itertools import product
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ebac._core import Corner, Device, Disc, Limits, Wall, _World
+from ebac._core import Corner, Device, Disc, Limits, Wall
+from ebac._util.surfaces import GRAZE, distances_at
 from ebac.scenario import Environment
 
-#: A handle that stands no deeper than this inside the virtual world counts as outside [m].
-GRAZE = 1e-3
 #: Positions of an axis from stop to stop, for the farthest places of the handle.
 _POSITIONS = 5
 
@@ -89,38 +87,6 @@ def check_reached(device: Device, limits: Limits, environment: Environment) -> N
         raise ValueError(found[1])
 
 
-def distances_at(environment: Environment, at: Sequence[float]) -> dict[str, float]:
-    """Return how far the handle at a place is from each surface [m], by its name; negative inside.
-
-    A moving wall counts as at rest, a moving body as where it is at the time 0. The surface of an engine is not known
-    before it answers.
-
-    Parameters
-    ----------
-    environment : Free, Wall, Corner, Disc or worlds.World
-        The virtual world.
-    at : sequence of float
-        Coordinates of the handle, one to three [m].
-    """
-    place = [float(one) for one in (*at, 0.0, 0.0)][:3]
-    x, y = place[:2]
-
-    def before(wall: Wall) -> float:
-        return wall.position - (math.cos(wall.angle) * x + math.sin(wall.angle) * y)
-
-    match environment:
-        case Wall() as wall:
-            return {"wall": before(wall)}
-        case Corner(first=first, second=second):
-            return {"first wall": before(first), "second wall": before(second)}
-        case Disc() as disc:
-            return {"disc": math.hypot(x - disc.x, y - disc.y) - disc.radius}
-        case _World() as world:
-            return _to_bodies(world, place)
-        case _:
-            return {}
-
-
 def check_stays_outside(before: Environment, after: Environment, at: Sequence[float]) -> None:
     """Refuse another world whose surface would stand deeper behind the handle than that of the present one.
 
@@ -136,18 +102,3 @@ def check_stays_outside(before: Environment, after: Environment, at: Sequence[fl
                 f"the handle would stand {-1e3 * way:.3g} mm inside the {name}, which would throw it out; it stands "
                 f"{1e3 * now:.3g} mm deep now, and a change may add {1e3 * GRAZE:g} mm: let the hand go out first"
             )
-
-
-def _to_bodies(world: Any, at: Sequence[float]) -> dict[str, float]:
-    """Return the distance to each body at the time 0; of a gimbal's handle in its plane, a little less or more."""
-    from ebac.worlds import distance
-    from ebac.worlds.world import begin_of
-
-    if not hasattr(world, "bodies"):
-        return {}
-    place = np.array([at], float)
-    named = {f"body {i + 1}": body for i, body in enumerate(world.bodies)}
-    return {
-        name: float(distance(body.solid, place - begin_of(body))[0][0])
-        for name, body in named.items()
-    }

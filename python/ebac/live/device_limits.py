@@ -10,7 +10,7 @@ from typing import Any, Self
 import numpy as np
 
 from ebac._core import Corner, Elastic, Free, HuntCrossley, _World
-from ebac.hardware.world_place import GRAZE
+from ebac._util.surfaces import GRAZE
 from ebac.live.choices import RANGES
 from ebac.live.surface import distance_of
 from ebac.scenario import Environment
