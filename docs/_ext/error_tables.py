@@ -38,7 +38,9 @@ def exceptions() -> Iterator[Row]:
     for module, names in ((ebac, ebac.__all__), (drives, drives.__all__)):
         for name in names:
             thing = getattr(module, name)
-            if inspect.isclass(thing) and issubclass(thing, BaseException):
+            if not inspect.isclass(thing) or issubclass(thing, Warning):
+                continue
+            if issubclass(thing, BaseException):
                 about = (inspect.getdoc(thing) or "").split("\n\n")[0].replace("\n", " ")
                 yield f"`{module.__name__}.{name}`", f"`{thing.__base__.__name__}`", about
 

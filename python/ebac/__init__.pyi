@@ -282,6 +282,9 @@ from ebac.scenario import (
     Scenario as Scenario,
 )
 from ebac.simulation import (
+    DoubtWarning as DoubtWarning,
+)
+from ebac.simulation import (
     LoopFault as LoopFault,
 )
 from ebac.simulation import (

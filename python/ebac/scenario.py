@@ -113,6 +113,24 @@ class Scenario:
         refuse_unknown("Scenario", changes, PARTS, part_of)
         return dataclasses.replace(self, **changes)
 
+    def doubts(self) -> tuple[str, ...]:
+        """Return what is possible, but more likely not meant, a text for each: the value, what is usual, the remedy.
+
+        `simulate` warns of these, but not of heat, and of a weak motor only where the ideal rest takes no search:
+
+        - a device in wrong units: current and force of the motor, mass, counts of the encoder, noise and steps of the
+          force sensor, weight, stops, a drum larger than its sector;
+        - a stiffness outside 50 N/m to 500 kN/m;
+        - a wall behind the stops of the device, which the handle never reaches;
+        - a handle that begins more than 1 mm inside the world and is pushed with more than 1 N;
+        - an ideal rest for which the motor is too weak, or for which it gets too hot to stay.
+
+        See also `Trace.doubts`, for what only a run shows.
+        """
+        from ebac._util.doubts.scenario import doubts
+
+        return doubts(self)
+
     def to_toml(self, *, folder: str | Path | None = None) -> str:
         """Return the scenario as TOML text, SI units throughout.
 

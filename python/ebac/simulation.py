@@ -9,7 +9,9 @@ from typing import Any
 import numpy as np
 
 from ebac import _core
+from ebac._util import remarks
 from ebac._util.arguments import number, require
+from ebac._util.doubts.scenario import doubts as doubts_before
 from ebac._util.fault_remedies import REMEDIES
 from ebac._util.foreign_worlds import foreign
 from ebac._util.kept_law import KeptLaw, law_error
@@ -22,6 +24,7 @@ from ebac.scenario import Scenario
 from ebac.trace import Trace
 
 __all__ = [
+    "DoubtWarning",
     "LoopFault",
     "simulate",
 ]
@@ -29,6 +32,13 @@ __all__ = [
 
 def __dir__() -> list[str]:
     return __all__
+
+
+class DoubtWarning(UserWarning):
+    """A warning of `simulate`: a number is possible, but more likely not meant. See `Scenario.doubts`, `Trace.doubts`.
+
+    To turn all of them off: `warnings.simplefilter("ignore", ebac.DoubtWarning)`.
+    """
 
 
 class LoopFault(RuntimeError):
@@ -147,6 +157,8 @@ def simulate(
     UserWarning
         When the process data would take over 70 % of the bus: 1 Mbit/s, or that of `bus`; when an engine's models
         were so old that their force faded.
+    DoubtWarning
+        For what `scenario.doubts()` lists before the run, and `trace.doubts()` after it.
 
     Raises
     ------
@@ -176,6 +188,9 @@ def simulate(
     if through is not None:
         scenario = on_bus(scenario, through, bus)
     finished = design(law, scenario.device, scenario.known_timing, **changes)
+    by_user = remarks.wanted()
+    if by_user:
+        _warn(doubts_before(scenario, quick=True))
     world = foreign(scenario.environment)
     mine = None if world is None else world.for_run()
     setup = (scenario if mine is None else scenario.replace(environment=mine)).setup()
@@ -206,7 +221,15 @@ def simulate(
         raise LoopFault(fault, trace, error, own, allowed, of_law) from error or own or of_law
     if mine is not None and (remark := mine.remark()):
         warnings.warn(remark, stacklevel=2)
+    if by_user:
+        _warn(trace.doubts())
     return trace
+
+
+def _warn(doubts: tuple[str, ...]) -> None:
+    """Warn at the line that called `simulate`."""
+    for text in doubts:
+        warnings.warn(text, DoubtWarning, stacklevel=3)
 
 
 def _too_long(scenario: Scenario) -> str:

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ebac._util.doubts import device as of_device
-from ebac._util.doubts import length, motor, wall
+from ebac._util.doubts import length, motor, run, start, wall
 from ebac.cli import output
 
 if TYPE_CHECKING:
@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from ebac.metrics import Contact
     from ebac.operators import Operators
     from ebac.scenario import Environment, Scenario
+    from ebac.trace import Trace
 
 #: Options that give what the library names otherwise.
 NO_OBSERVER, STIFFNESS, POSITION = "--no-observer", "--wall-stiffness", "--wall-position"
@@ -53,6 +54,17 @@ def note_place(option: float | None, file: Path | None, scenario: Scenario) -> N
     """Print that a wall stands behind the stops of the device; `option` [m] is that of --wall-position."""
     name = f"{file}: {wall.POSITION}" if option is None else POSITION
     _print(wall.behind_stops(scenario, option, name))
+
+
+def note_start(option: float | None, file: Path | None, scenario: Scenario) -> None:
+    """Print that the handle begins inside the world; `option` [m] is that of --wall-position."""
+    name = POSITION if option is not None else f"{file}: environment" if file else "environment"
+    _print(start.inside(scenario, name))
+
+
+def note_left(trace: Trace) -> None:
+    """Print that a handle was beyond the stops of its device."""
+    _print(run.left(trace), where=trace.law)
 
 
 def note_untouched(scenario: Scenario, contacts: Iterable[Contact]) -> None:

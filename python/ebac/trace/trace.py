@@ -232,6 +232,16 @@ class Trace:
 
         return summary(self)
 
+    def doubts(self) -> tuple[str, ...]:
+        """Return what was likely not meant of a simulated run, as texts with the remedy.
+
+        They are a handle that leaves the workspace of its device, and a wall that is not met because the target of the
+        hand lies before it. `simulate` warns of these; `Scenario.doubts` lists what is doubtful before a run.
+        """
+        from ebac._util.doubts.run import doubts
+
+        return doubts(self)
+
     def flat(self) -> Iterator[tuple[str, ColumnInfo, NDArray[Any]]]:
         """Yield every column as one-dimensional: `x`, or `x_0`, `x_1` with several axes."""
         for name, values in self._data.items():

@@ -13,18 +13,27 @@ if TYPE_CHECKING:
 WARM = 1.25
 
 
-def of_one(scenario: Scenario) -> str:
-    """Return what the motor cannot give at the ideal rest, or not for long; else nothing."""
+def too_weak(scenario: Scenario) -> str:
+    """Return what the motor cannot give at the ideal rest; else nothing."""
+    force, most = _at_rest(scenario), scenario.device.peak_force
+    return (
+        f"No law can be exact: {_needs(force)} gives {most:.3g} N at most" if force > most else ""
+    )
+
+
+def too_hot(scenario: Scenario) -> str:
+    """Return what the motor cannot give for long at the ideal rest; else nothing."""
     force, device = _at_rest(scenario), scenario.device
-    needs = f"the ideal rest needs {force:.3g} N, and the motor"
-    if force > device.peak_force:
-        return f"No law can be exact: {needs} gives {device.peak_force:.3g} N at most."
-    if force > WARM * device.continuous_force:
-        return (
-            f"Too hot to be held: {needs} gives {device.continuous_force:.3g} N for ever (rated_torque). Its heat is "
-            "not simulated; `ebac run` limits it."
-        )
-    return ""
+    if not WARM * device.continuous_force < force <= device.peak_force:
+        return ""
+    return (
+        f"Too hot to be held: {_needs(force)} gives {device.continuous_force:.3g} N for ever (rated_torque); its heat "
+        "is not simulated, `ebac run` limits it"
+    )
+
+
+def _needs(force: float) -> str:
+    return f"the ideal rest needs {force:.3g} N, and the motor"
 
 
 def of_many(population: Operators, base: Scenario) -> str:

@@ -80,7 +80,7 @@ def before_target(scenario: Scenario, name: str = POSITION, target: str = "hand.
         return ""
     times = np.linspace(0, scenario.seconds, 1001)
     most = max(scenario.hand.target(t) for t in times)
-    if most > wall.position:
+    if most >= wall.position:
         return ""
     return (
         f"the wall stands at {wall.position:g} m ({name}), and the target of the hand comes to {most:.4g} m at most: "
@@ -98,5 +98,5 @@ def _end(device: Device, angle: float = 0.0) -> float:
 
 def _in_metres(place: float, end: float) -> str:
     """Return what a place [m] would be that was meant in millimetres, where the handle could come to that."""
-    shown = f", {place:g} mm are {place / 1e3:g}" if 0 < place / 1e3 < end else ""
+    shown = f", {place:g} mm are {place / 1e3:g}" if 1 <= place < 1e3 * end else ""
     return f"; positions are in metres{shown}"

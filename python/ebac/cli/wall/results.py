@@ -144,8 +144,8 @@ def show(
     show_contacts(contacts)
     if why := no_ideal_rest(scenario):
         output.say(f"Not judged exact, there is no ideal rest: {why}.")
-    elif weak := motor.of_one(scenario):
-        output.say(weak)
+    elif weak := motor.too_weak(scenario) or motor.too_hot(scenario):
+        output.say(f"{weak}.")
     if scenario.device.axes > 1:
         output.say(
             f"Of the {scenario.device.axes} axes: rest and deepest are those of the first; swings, settling times, "

@@ -120,26 +120,6 @@ def _check_length(scenario: Scenario) -> None:
         )
 
 
-def _note_left(trace: Trace, scenario: Scenario) -> None:
-    """Say on stderr where a handle was beyond the stops of its device, which this simulation does not have."""
-    import numpy as np
-
-    kinematics = scenario.device.kinematics
-    stops = np.atleast_1d(kinematics.travel * kinematics.stops)
-    x = np.abs(trace["true.x"]).reshape(len(trace), -1)
-    beyond = (x > stops[: x.shape[1]]).any(axis=1)
-    if not beyond.any():
-        return
-    first = int(beyond.argmax())
-    axis = int((x - stops[: x.shape[1]]).max(axis=0).argmax())
-    output.note(
-        f"{trace.law}: the handle leaves the workspace of its device after {trace['t'][first]:.4g} s and is up to "
-        f"{1e3 * x[:, axis].max():.4g} mm from the middle on axis {axis}; the stops of the device stand at "
-        f"{1e3 * stops[axis]:.4g} mm (device.kinematics.limit) and are not simulated, so that no device does what "
-        "follows; look at the sign of the law's force, and at the target of the hand"
-    )
-
-
 def _run(
     scenario: Scenario,
     laws: Mapping[str, AnyLaw],
@@ -170,7 +150,7 @@ def _run(
     except LoopFault as fault:
         wall_results.report_fault(fault, out)
     for trace in traces:
-        _note_left(trace, scenario)
+        doubtful.note_left(trace)
     doubtful.note_untouched(scenario, contacts)
     if as_json:
         typer.echo(text)
