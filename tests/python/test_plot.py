@@ -159,6 +159,25 @@ def test_chosen_columns_of_beta_are_drawn_as_in_the_panel_of_a_run(run: Run) -> 
     ]
 
 
+def test_beta_within_a_decade_is_drawn_on_a_linear_scale(run: Run) -> None:
+    """Logarithmic beyond 1 kN/m, all of EBA's beta of 0.8 to 2.3 kN/m was one row of dots."""
+    trace = run("eba", observer=False)
+    most = 1e-3 * np.nanmax(trace["law.beta"])
+    (panel,) = trace.plot("law.beta").axes
+    assert panel.get_yscale() == "linear"
+    assert panel.get_ylim()[0] < 0 < most < panel.get_ylim()[1] < 2 * most
+    (panel,) = trace.plot("law.beta", scale="log").axes
+    assert panel.get_yscale() == "symlog"
+    (panel,) = trace.plot("law.beta", "law.beta_max").axes
+    assert panel.get_yscale() == "symlog", "its bounds run over decades"
+    (panel,) = trace.plot("law.beta", "law.beta_max", scale="linear").axes
+    assert panel.get_ylim()[1] < 2 * most
+    (panel,) = [ax for ax in trace[0:0.1].plot(scale="linear").axes if "beta" in ax.get_ylabel()]
+    assert panel.get_yscale() == "linear"
+    with pytest.raises(ValueError, match=r"scale = 'linaer': must be .* did you mean 'linear'"):
+        trace.plot("law.beta", scale="linaer")
+
+
 def test_a_value_between_two_gaps_of_a_column_is_a_dot(run: Run) -> None:
     whole = run("tca")
     data = {name: whole[name].copy() for name in whole}

@@ -13,7 +13,7 @@ from ebac._util.arrays import Values
 from ebac._util.gaps import alone
 from ebac._util.plural import plural
 from ebac._util.sequences import require_each, several
-from ebac.plot.decades import limit_of, set_decades
+from ebac.plot.decades import StiffnessScale
 from ebac.plot.marks import mark_end, no_beta, title
 from ebac.plot.style import Picture, dress, legend, line, new_figure
 from ebac.trace import Trace
@@ -25,7 +25,7 @@ _SHADES = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e6ab02", "#56b4e9", "#0
 _BOUNDS = ("_min", "_max")
 
 
-def plot_columns(trace: Trace, names: Sequence[str]) -> Picture:
+def plot_columns(trace: Trace, names: Sequence[str], *, scale: str | None = None) -> Picture:
     """Draw columns over time, one panel for each unit.
 
     Parameters
@@ -34,6 +34,9 @@ def plot_columns(trace: Trace, names: Sequence[str]) -> Picture:
         At least two rows.
     names : sequence of str
         Columns; one of several axes gives a line for each, and NAME_AXIS, as "x_0", that axis alone.
+    scale : "linear", "log" or None
+        Of columns in N/m, such as `law.beta`: linear, or logarithmic beyond 1 kN/m; default: linear where all are
+        within 10 times their median. Bounds, `law.beta_max` and `law.beta_min`, are cut where what they bound ends.
 
     Returns
     -------
@@ -45,7 +48,7 @@ def plot_columns(trace: Trace, names: Sequence[str]) -> Picture:
     KeyError
         For a column that is not there.
     ValueError
-        When the trace is too short, no column is named, or one has no such axis.
+        When the trace is too short, no column is named, one has no such axis, or for another scale.
     """
     require(trace, Trace, "ebac.plot.plot_columns", "a Trace")
     names = several("plot_columns: names", names)
@@ -62,7 +65,7 @@ def plot_columns(trace: Trace, names: Sequence[str]) -> Picture:
         factor, shown, _ = formatting.SHOWN.get(unit, (1, unit, 0))
         if unit == "N/m":
             shown = "kN/m"
-            _dots(ax, trace, columns)
+            _dots(ax, trace, columns, scale)
         else:
             lines = list(_lines(trace, columns))
             ink = [float(np.nansum(np.abs(np.diff(values)))) for _, values in lines]
@@ -93,24 +96,23 @@ def _line(ax: Axes, t: Values, values: Values, i: int, label: str, above: float)
         ax.plot(t, dots, ".", ms=2.5, color=shade)
 
 
-def _dots(ax: Axes, trace: Trace, columns: Sequence[str]) -> None:
+def _dots(ax: Axes, trace: Trace, columns: Sequence[str], given: str | None) -> None:
     """Draw columns in N/m as the panel of beta of a run: as far as what lies between bounds goes, bounds cut."""
     drawn = {label: values / 1e3 for label, values in _lines(trace, columns)}
     inner = [v for label, v in drawn.items() if not label.partition(",")[0].endswith(_BOUNDS)]
-    limit = limit_of(inner or drawn.values())
+    scale = StiffnessScale.of(inner or drawn.values(), given, drawn.values())
     for i, (label, values) in enumerate(drawn.items()):
-        cut = f"{label}, shown to {limit:g} kN/m" if (np.abs(values) > limit).any() else label
         shade = _SHADES[i % len(_SHADES)]
         ax.plot(
             trace["t"],
-            np.clip(values, -limit, limit),
+            scale.cut(values),
             ".",
             ms=3,
             color=shade,
-            label=cut,
+            label=scale.named(label, values),
             zorder=2.5 - 0.01 * i,  # a bound often equals what it bounds
         )
-    set_decades(ax, limit)
+    scale.set(ax)
 
 
 def _axes(trace: Trace, given: str) -> tuple[str, range]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -13,7 +14,7 @@ from ebac._util.arguments import require
 from ebac._util.arrays import Values
 from ebac._util.plural import plural
 from ebac.plot.columns import plot_columns
-from ebac.plot.decades import limit_of, set_decades
+from ebac.plot.decades import StiffnessScale
 from ebac.plot.marks import mark_changes, mark_end, no_beta, title, used_axes
 from ebac.plot.style import (
     QUANTITIES,
@@ -56,7 +57,7 @@ BOUNDS = {
 Panel = Callable[[Axes, Trace, int, Trace], None]
 
 
-def plot_trace(trace: Trace, *, events: Sequence[Event] = ()) -> Picture:
+def plot_trace(trace: Trace, *, events: Sequence[Event] = (), scale: str | None = None) -> Picture:
     """Draw a run: position, force, beta and energy over time, one column of panels per axis in use.
 
     A log that lacks columns of a loop, such as one of another program, is drawn with all of its columns that change.
@@ -67,6 +68,8 @@ def plot_trace(trace: Trace, *, events: Sequence[Event] = ()) -> Picture:
         At least two rows.
     events : sequence of Event
         Those of its log: what was changed while it ran is marked, each change by a line and a number.
+    scale : "linear", "log" or None
+        Of beta; default: "log", as its bounds run over decades.
 
     Returns
     -------
@@ -84,21 +87,22 @@ def plot_trace(trace: Trace, *, events: Sequence[Event] = ()) -> Picture:
     if not all(name in trace for name in LOOP):
         others = [name for name in trace if name not in ("t", "tick")]
         moving = [name for name in others if (trace[name] != trace[name][:1]).any()]
-        return plot_columns(trace, moving or others)
+        return plot_columns(trace, moving or others, scale=scale)
     used = used_axes(trace)
     with_beta = [axis for axis in used if _has_beta(trace, axis)]
     constant = [axis for axis in with_beta if len(used) > 1 and _beta_is_constant(trace, axis)]
     with_beta = [axis for axis in with_beta if axis not in constant]
     panels: list[Panel] = [_position, _force, _energy]
+    beta: Panel = partial(_beta, scale=scale or "log")
     if with_beta:  # last where an axis lacks it, so that all else stands side by side
-        panels.insert(2 if with_beta == used else len(panels), _beta)
+        panels.insert(2 if with_beta == used else len(panels), beta)
     contact = _first_contact(trace, used[0]) if len(used) == 1 else None
     figure = new_figure(1.5 + WIDTHS[min(len(used), 3)] * len(used), 1.0 + 2.4 * len(panels))
     shares = [1.0] * len(used) if contact is None else [1.0, CONTACT_SHARE]
     grid = figure.add_gridspec(len(panels), len(shares), width_ratios=shares)
     for column, axis in enumerate(used):
         above: Axes | None = None
-        drawn = [draw for draw in panels if draw is not _beta or axis in with_beta]
+        drawn = [draw for draw in panels if draw is not beta or axis in with_beta]
         for row, draw in enumerate(drawn):
             above = figure.add_subplot(grid[row, column], sharex=above)
             draw(above, trace, axis, trace)
@@ -115,7 +119,7 @@ def plot_trace(trace: Trace, *, events: Sequence[Event] = ()) -> Picture:
     if constant:
         several = "axes" if len(constant) > 1 else "axis"
         note += f"\nbeta is constant on {several} {', '.join(map(str, constant))}, not shown"
-    elif "law.beta" in trace and _beta not in panels:
+    elif "law.beta" in trace and beta not in panels:
         note += f"\nbeta is not shown: {no_beta(trace)}"
     for number, change in enumerate(changes, start=1):
         note += f"\n{number}, at {change.t:.4g} s: {change.message}"
@@ -219,29 +223,28 @@ def _span(values: Values) -> tuple[float, float]:
     return (float(known.min()), float(known.max())) if known.size else (0.0, 0.0)
 
 
-def _beta(ax: Axes, trace: Trace, axis: int, whole: Trace) -> None:
+def _beta(ax: Axes, trace: Trace, axis: int, whole: Trace, scale: str) -> None:
     t, beta = trace["t"], trace.axis("law.beta", axis) / 1e3
-    limit = limit_of([whole.axis("law.beta", axis) / 1e3])
+    range_ = StiffnessScale.of([whole.axis("law.beta", axis) / 1e3], scale)
     for name, label in BOUNDS.items():
         if name in trace:
-            bound = np.clip(trace.axis(name, axis) / 1e3, -limit, limit)
+            bound = trace.axis(name, axis) / 1e3
             ax.plot(
                 t,
-                bound,
+                range_.cut(bound),
                 ".",
                 ms=2.5,
                 color=QUANTITIES[name],
-                label=f"{label}, shown to {limit:g} kN/m",
+                label=range_.named(label, whole.axis(name, axis) / 1e3),
             )
-    taken = np.clip(beta, -limit, limit)
-    ax.plot(t, taken, ".", ms=3.5, color=colour(trace.law), label=r"$\beta$ taken")
+    ax.plot(t, range_.cut(beta), ".", ms=3.5, color=colour(trace.law), label=r"$\beta$ taken")
     if (shown := stiffness_in_motion(whole, axis)) is not None:
         ax.axhline(
             shown / 1e3, color="0.35", lw=1, zorder=1.9, label=f"$c_h$, {shown / 1e3:.3g} kN/m"
         )
     if "law.clamped" in trace:
         _ticks(ax, t[trace.axis("law.clamped", axis) != 0])
-    set_decades(ax, limit)
+    range_.set(ax)
     mark_end(ax, trace, label=False)
     dress(ax, r"$\beta$ [kN/m]")
     legend(ax)

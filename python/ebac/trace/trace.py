@@ -363,15 +363,16 @@ class Trace:
         require_file(path, "Trace.from_npz")
         return cls(**npz_parts(path))
 
-    def plot(self, *columns: str | Sequence[str]) -> Figure:
+    def plot(self, *columns: str | Sequence[str], scale: str | None = None) -> Figure:
         """Draw position, force, energy and, of a law that limits it, beta over time; or columns by name.
 
-        `trace.plot("law.energy", "f_cmd")` draws a panel for each unit. See `ebac.plot.plot_trace` and `plot_columns`.
+        `trace.plot("law.energy", "f_cmd")` draws a panel for each unit; `scale`, "linear" or "log", is that of columns
+        in N/m, such as `law.beta`. See `ebac.plot.plot_trace` and `plot_columns`.
         """
         from ebac.plot import plot_columns, plot_trace
 
         names = [n for one in columns for n in ([one] if isinstance(one, str) else one)]
-        return plot_columns(self, names) if columns else plot_trace(self)
+        return plot_columns(self, names, scale=scale) if columns else plot_trace(self, scale=scale)
 
     def explore(self, *columns: str | Sequence[str], axis: int = 0) -> Exploration:
         """Look at the rows in a notebook, however many: linked panels to zoom and move in, no peak lost.
