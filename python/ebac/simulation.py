@@ -171,6 +171,7 @@ def simulate(
         For a law that does not exist or cannot be made; see `design`. Through CAN also for a delay of 0 samples,
         and when the process data would take over 90 % of the bus, or more time than the loop waits.
     """
+    __tracebackhide__ = hidden_by_pytest
     require(scenario, Scenario, "ebac.simulate", "a Scenario")
     require(limits, (_core.Limits, bool), "ebac.simulate", "limits=True, False or a Limits")
     for name in changes:
@@ -224,6 +225,11 @@ def simulate(
     if by_user:
         _warn(trace.doubts())
     return trace
+
+
+def hidden_by_pytest(failure: Any) -> bool:
+    """Return whether a failed test shows the line that called `simulate` alone: for faults and wrong arguments."""
+    return isinstance(failure.value, (LoopFault, KeyError, TypeError, ValueError))
 
 
 def _warn(doubts: tuple[str, ...]) -> None:

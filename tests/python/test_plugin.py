@@ -324,3 +324,37 @@ def test_a_profile_that_someone_loads_holds_for_the_contract_and_is_left_as_it_i
     """
     run = subprocess.run([sys.executable, "-c", code], check=True, capture_output=True, text=True)
     assert run.stdout.split() == ["False", "7", "True"]
+
+
+# --- what a failed test shows ---
+
+
+def test_a_fault_shows_the_line_of_the_test_and_no_code_of_the_library(
+    project: pytest.Pytester,
+) -> None:
+    """A NaN of a law took 130 lines, most of them the docstring of `simulate`."""
+    project.makepyfile(
+        test_mine="""
+        import math
+        import ebac
+
+        class Mine:
+            name = "mine"
+
+            def reset(self):
+                pass
+
+            def step(self, port):
+                return math.nan
+
+        def test_nan():
+            ebac.simulate(ebac.Scenario(seconds=0.1), Mine())
+        """
+    )
+    result = project.runpytest_inprocess()
+    result.assert_outcomes(failed=1)
+    text = told(result)
+    assert ">       ebac.simulate(ebac.Scenario(seconds=0.1), Mine())" in text
+    assert "mine gave no finite force) in tick 0" in text
+    assert "simulation.py" not in text
+    assert text.count("\n") < 30

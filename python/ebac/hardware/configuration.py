@@ -301,8 +301,9 @@ class Configuration:
         """
         from ebac.hardware.axis_positions import check_outside, positions_at_zero
         from ebac.hardware.drive_limits import held_back
-        from ebac.simulation import simulate
+        from ebac.simulation import hidden_by_pytest, simulate
 
+        __tracebackhide__ = hidden_by_pytest
         self._refuse_wrong_wiring()
         check_outside(self, positions_at_zero(self), self.environment)
         scenario = self._on_virtual_clock(seconds)

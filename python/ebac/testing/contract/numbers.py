@@ -41,7 +41,7 @@ class Numbers:
         peak = getattr(law, "peak_force", math.inf)
         for port in ports:
             force = law.step(port)
-            assert math.isfinite(force)
+            assert math.isfinite(force), f"{force} N for {port}"
             assert abs(force) <= peak
 
     @of_core
