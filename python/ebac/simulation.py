@@ -189,9 +189,6 @@ def simulate(
     if through is not None:
         scenario = on_bus(scenario, through, bus)
     finished = design(law, scenario.device, scenario.known_timing, **changes)
-    by_user = remarks.wanted()
-    if by_user:
-        _warn(doubts_before(scenario, quick=True))
     world = foreign(scenario.environment)
     mine = None if world is None else world.for_run()
     setup = (scenario if mine is None else scenario.replace(environment=mine)).setup()
@@ -201,6 +198,9 @@ def simulate(
             allowed = _core.Limits.of(scenario.device)
         setup = _core._with_loop(setup, soft_start=soft_start, ramp_down=ramp_down, limits=allowed)
     _check_observer(finished, scenario)
+    by_user = remarks.wanted()
+    if by_user:
+        _warn(doubts_before(scenario, quick=True))
     errors: list[BaseException] = []
     try:
         if is_core_law(finished):

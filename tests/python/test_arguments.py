@@ -95,6 +95,15 @@ def test_wrong_arguments_are_refused_with_a_sentence(
     assert str(refused.value) == message
 
 
+@pytest.mark.parametrize("law", ["mine.py:Damped", "laws/mine.py:Damped", "mine:Damped"])
+def test_a_law_in_the_words_of_the_command_line_is_refused_with_those_of_python(law: str) -> None:
+    for call in (lambda: ebac.simulate(S(), law), lambda: ebac.sweep([S()], [law])):
+        with pytest.raises(
+            ValueError, match=r"from mine import Damped, and Damped\(\) in place of '"
+        ):
+            call()
+
+
 @pytest.mark.parametrize(
     ("call", "message"),
     [

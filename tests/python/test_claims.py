@@ -90,8 +90,26 @@ def test_settling_is_that_of_the_contact(start: float, decay: float, rest: float
 def test_what_swings_never_settles() -> None:
     trace = ebac.simulate(ebac.Scenario(seconds=1.0), "tca")
     with pytest.raises(AssertionError, match=r"never settles: .* it swings by \d"):
-        assert_settles(trace, within=10)
+        assert_settles(trace, within=1)
     assert_settles(trace, within=1, band=0.1)
+
+
+@pytest.mark.parametrize(("within", "more"), [(500, "; 500 ms are 0.5 s"), (1.5, "")])
+def test_a_time_beyond_the_run_is_refused(within: float, more: str) -> None:
+    """Milliseconds in place of seconds passed whatever the run did."""
+    trace = ebac.simulate(ebac.Scenario(seconds=1.0), "ebac")
+    with pytest.raises(ValueError, match=f"within = {within:g} s: must be at most 1 s.*{more}$"):
+        assert_settles(trace, within=within)
+
+
+def test_a_wrong_name_is_refused_with_the_nearest() -> None:
+    trace = ebac.simulate(ebac.Scenario(seconds=0.1), "ebac")
+    with pytest.raises(TypeError) as refused:
+        assert_within_limits(trace, travl=0.1)  # type: ignore[call-arg]
+    assert str(refused.value) == (
+        "ebac.testing.assert_within_limits has no parameter 'travl', did you mean 'travel' or 'trace'; it has: "
+        "trace, force, current, travel, speed"
+    )
 
 
 # --- continuity and limits ---

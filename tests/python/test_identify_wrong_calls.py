@@ -97,6 +97,11 @@ def write(path: Path, *, mark: str = ",", rows: int = ROWS) -> Path:
     return path
 
 
+def test_an_unknown_option_of_a_file_is_refused_with_the_nearest() -> None:
+    with pytest.raises(TypeError, match="load has no parameter 'unit', did you mean 'units'"):
+        identify.load("press.csv", unit="mm")  # type: ignore[call-arg]
+
+
 @pytest.mark.parametrize(
     ("options", "message"),
     [

@@ -154,6 +154,11 @@ WRONG = [
     ("every=0", "every = 0: must be at least 1"),
     ("every=2.5", "every = 2.5: must be a whole number"),
     ("until=float('nan')", "stop = nan s: must be a time"),
+    (
+        "until=50",
+        "until = 50 s: must be at most 0.1 s, where the run ends: leave it out for all rows; 50 ms are",
+    ),
+    ("until=0.2", "until = 0.2 s: must be at most 0.1 s, where the run ends: leave it out"),
     ("tolerances={'x': 1e-3}", "tolerance for x takes a Tolerance, as in Tolerance(absolute="),
     ("tolerances={'x': Tolerance(absolute='a')}", "Tolerance.absolute = 'a': must be a number"),
     ("metric_tolerances={'swing_m': 'a'}", "tolerance of swing_m = 'a': must be a number"),

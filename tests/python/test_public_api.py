@@ -159,7 +159,24 @@ def test_an_unknown_name_suggests_the_nearest() -> None:
     run = subprocess.run(
         [sys.executable, "-c", "import ebac; ebac.simulat"], capture_output=True, text=True
     )
-    assert "module 'ebac' has no attribute 'simulat'. Did you mean: 'simulate'?" in run.stderr
+    assert (
+        run.stderr.count("module 'ebac' has no attribute 'simulat'. Did you mean: 'simulate'?") == 1
+    )
+    assert run.stderr.count("Did you mean") == 1
+
+
+@pytest.mark.parametrize(
+    ("module", "given", "meant"), [(ebac, "simulat", "simulate"), (ebac.worlds, "Shpere", "Sphere")]
+)
+def test_the_message_itself_suggests_the_nearest(
+    module: ModuleType, given: str, meant: str
+) -> None:
+    """A traceback adds it; notebooks and pytest show the message alone."""
+    with pytest.raises(AttributeError) as refused:
+        getattr(module, given)
+    assert str(refused.value).endswith(f"has no attribute '{given}'. Did you mean: '{meant}'?")
+    with pytest.raises(AttributeError, match=r"has no attribute 'qqqqqq'$"):
+        module.qqqqqq  # noqa: B018
 
 
 def test_an_import_loads_nothing_heavy(capsys: pytest.CaptureFixture[str]) -> None:

@@ -8,8 +8,18 @@ from importlib import import_module
 
 TYPE_CHECKING = False  # typing itself would be a third of the time of an import
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Iterable
     from typing import Any
+
+
+def unknown(package: str, name: str, known: Iterable[str]) -> AttributeError:
+    """Return the error for a name that a package has not, with the nearest one, which only a traceback would add."""
+    from difflib import get_close_matches
+
+    near = get_close_matches(name, known, 1)
+    more = f". Did you mean: {near[0]!r}?" if near else ""
+    # Without obj=, by which a traceback would add the nearest once more.
+    return AttributeError(f"module {package!r} has no attribute {name!r}{more}", name=name)
 
 
 def from_stub(
@@ -35,9 +45,7 @@ def from_stub(
 
     def get(name: str) -> Any:
         if name not in places:
-            raise AttributeError(
-                f"module {package!r} has no attribute {name!r}", name=name, obj=sys.modules[package]
-            )
+            raise unknown(package, name, places)
         module, wanted = places[name]
         if module == package:
             return import_module(f"{package}.{wanted}")

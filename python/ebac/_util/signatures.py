@@ -55,7 +55,7 @@ def python_sentence(
 ) -> str:
     """Return what is wrong with the call of a class or of a public function written in Python."""
     kinds = inspect.Parameter
-    label = called.__name__ if isinstance(called, type) else f"ebac.{called.__name__}"
+    label = called.__name__ if isinstance(called, type) else _public_name(called)
     parameters = list(inspect.signature(called).parameters.values())
     if given and parameters[0].kind is kinds.VAR_POSITIONAL:
         return f"{label} takes its {parameters[0].name} in order, not by name: {next(iter(given))}"
@@ -64,6 +64,16 @@ def python_sentence(
         for p in parameters
     ]
     return _sentence(label, takes, values, given)
+
+
+def _public_name(function: Callable[..., Any]) -> str:
+    """Return how people write a public function: ebac.study, ebac.identify.load."""
+    import ebac
+
+    name = function.__name__
+    public = name in dir(ebac) and inspect.unwrap(getattr(ebac, name)) is inspect.unwrap(function)
+    room = "ebac" if public else ".".join(function.__module__.split(".")[:2])
+    return f"{room}.{name}"
 
 
 def refuse_names(label: str, call: Callable[..., Any], given: Mapping[str, Any]) -> None:

@@ -95,6 +95,7 @@ def _by_name(
 
     @wraps(call)
     def by_name(*values: P.args, **given: P.kwargs) -> Result:
+        __tracebackhide__ = True  # a failed test shows the call, and what raises in it
         try:
             return call(*values, **given)
         except TypeError as error:

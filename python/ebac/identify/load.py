@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from ebac._util.arguments import number, require_file, unknown
 from ebac._util.plural import plural
 from ebac._util.text_file import says_simulated
+from ebac._util.wrong_calls import plain_function
 from ebac.identify.columns import QUANTITIES, assign, listed
 from ebac.identify.files import Columns, Table, archive_of, read_columns
 from ebac.identify.held_force import without_held
@@ -31,6 +32,7 @@ from ebac.trace import Trace
 OTHER = 0.05
 
 
+@plain_function
 def load(
     path: str | Path,
     *,

@@ -107,6 +107,13 @@ def class_of(law: str | type) -> type[CoreLaw]:
     """Return the class of a law, which may go by its name or that of one with tuned parameters."""
     if isinstance(law, str):
         name = law.partition("-tuned")[0] if law in tuned_laws() else law
+        place, colon, own = name.rpartition(":")
+        if colon:
+            module = place.rpartition("/")[2].removesuffix(".py")
+            raise ValueError(
+                f"law = {law!r}: the option --law takes FILE.py:CLASS; in Python give an object of the class: "
+                f"from {module} import {own}, and {own}() in place of {law!r}"
+            )
         if name not in LAWS:
             raise unknown_name("law", law, [*LAWS, *tuned_laws()])
         return LAWS[name]

@@ -9,13 +9,16 @@ from numpy.typing import NDArray
 
 from ebac._util.arguments import number, require
 from ebac._util.plural import plural
+from ebac._util.wrong_calls import plain_function
 from ebac.metrics import FEWEST_ROWS, STILL_SWING, TAIL_SHARE
+from ebac.testing.times import within_run
 from ebac.trace import Trace
 
 #: What the rounding of an energy may come to [J].
 ROUNDING = 1e-9
 
 
+@plain_function
 def assert_passive(
     trace: Trace, *, reserve: float = 0.0, damping: float | None = None, tolerance: float = ROUNDING
 ) -> None:
@@ -56,6 +59,7 @@ def assert_passive(
     )
 
 
+@plain_function
 def assert_settles(
     trace: Trace, *, within: float, band: float = STILL_SWING / 2, axis: int = 0
 ) -> None:
@@ -66,7 +70,7 @@ def assert_settles(
     trace : Trace
         At least 10 rows; `true.x` is taken where there is one, otherwise `x`.
     within : float
-        Latest time, from the first row, from which on it must stay near its rest [s].
+        Latest time, from the first row, from which on it must stay near its rest [s]; at most the length of the run.
     band : float
         How near: |x - rest| <= band [m], default 0.125 mm. Rest is the mean over the last 30 % of the run.
     axis : int
@@ -77,7 +81,7 @@ def assert_settles(
     AssertionError
         When it comes to rest later or never.
     ValueError
-        When the trace is too short or has no such axis.
+        When the trace is too short, also for `within`, or has no such axis.
     """
     __tracebackhide__ = True
     require(trace, Trace, "ebac.testing.assert_settles", "a Trace")
@@ -85,6 +89,7 @@ def assert_settles(
     if len(trace) < FEWEST_ROWS:
         raise ValueError(f"the trace has {plural(len(trace), 'row')}: needs at least {FEWEST_ROWS}")
     t = trace["t"] - trace["t"][0]
+    within_run("within", within, t, "the length of the run")
     x = trace.axis("true.x" if "true.x" in trace else "x", axis)
     _finite("position", x, trace)
     tail = x[-max(2, int(TAIL_SHARE * len(x) + 0.5)) :]  # the same rows as in `ebac.contact`
@@ -103,6 +108,7 @@ def assert_settles(
     )
 
 
+@plain_function
 def assert_force_continuous(
     trace: Trace, *, step: float, column: str = "f_applied", axis: int | None = None
 ) -> None:
@@ -143,6 +149,7 @@ def assert_force_continuous(
         )
 
 
+@plain_function
 def assert_within_limits(
     trace: Trace,
     *,

@@ -14,6 +14,7 @@ from ebac._util.file_names import file_name
 from ebac.metrics import contact
 from ebac.testing.compare import Comparison, check_columns, compare
 from ebac.testing.metric import METRICS, Metrics, check_names, differences, metrics_of
+from ebac.testing.times import within_run
 from ebac.testing.tolerance import Tolerance
 from ebac.trace import Trace
 from ebac.trace.files import write_npz
@@ -102,7 +103,8 @@ class TraceRegression:
         every : int
             Store and compare every n-th row only, >= 1. Metrics are those of the whole trace.
         until : float, optional
-            Compare rows up to this time only [s]; all are stored. A limit cycle does not repeat its digits elsewhere.
+            Compare rows up to this time only [s], within the run; all are stored. A limit cycle does not repeat its
+            digits elsewhere.
         name : str, optional
             Name of the golden trace; needed for a second one in the same test.
 
@@ -126,6 +128,8 @@ class TraceRegression:
         if isinstance(columns, str):
             raise TypeError(f"columns = {columns!r}: must be a sequence, such as [{columns!r}]")
         trace.between(None, until)  # refuses what is no time
+        if until is not None:
+            within_run("until", until, trace["t"], "where the run ends: leave it out for all rows")
         check_names(metric_tolerances or {})
         chosen = [c for c in COLUMNS if c in trace] if columns is None else list(columns)
         check_columns(tolerances or {}, ["t", *chosen])

@@ -23,6 +23,7 @@ from ebac._core import (
     Texture,
     Torus,
 )
+from ebac._util.lazy import unknown
 from ebac.worlds.answers import LocalModel
 from ebac.worlds.closed_forms import Puncture
 from ebac.worlds.engine_process import EngineProcess
@@ -96,3 +97,7 @@ __all__ = [
 
 def __dir__() -> list[str]:
     return __all__
+
+
+def __getattr__(name: str) -> object:
+    raise unknown(__name__, name, __all__)
