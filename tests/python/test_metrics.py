@@ -465,6 +465,19 @@ def test_a_handle_that_follows_its_hand_is_in_no_limit_cycle(
         assert ("limit cycle         none" in str(met)) == (verdict != "swings")
 
 
+def test_energy_beyond_the_reserve_comes_first_in_a_verdict() -> None:
+    """A hand that moved and drew 47.5 J was said to move alone."""
+    moving = {"with_hand": True, "still": False, "quiet": False}
+    calm = ebac.contact(ebac.simulate(ebac.Scenario(), "ebac"))
+    for least, before in ((-0.009, ""), (-0.0123, "draws 12.3 mJ: "), (-47.53, "draws 47.5 J: ")):
+        drew = replace(calm, least_energy_J=least)
+        assert drew.verdict == f"{before}exact and quiet"
+        assert replace(drew, **moving).verdict == f"{before}moves with the hand"
+        assert replace(drew, still=False).verdict == "swings"
+        assert replace(drew, drawn_J=0.0).verdict == "exact and quiet", "a moving wall did the work"
+        assert replace(drew, surface_moves=True).verdict == "not judged: the surface moves"
+
+
 @pytest.mark.parametrize("name", ["t", "x", "f_applied"])
 def test_a_row_that_is_no_number_is_not_judged(run: Any, name: str) -> None:
     trace = run("ebac", seconds=0.5)

@@ -10,6 +10,8 @@ from ebac._util.formatting import quantity, vibration_shown
 if TYPE_CHECKING:
     from ebac.metrics import Contact
 
+#: Energy with which the account of `ebac` begins [J]: a hand that draws more than that is named.
+RESERVE = 0.01
 #: A shorter run has no end at which to judge rest and swing [s].
 JUDGED_FROM = 0.5
 
@@ -22,8 +24,26 @@ def verdict(contact: Contact) -> str:
     "not judged: the surface moves" where an engine reports that in the last 30 %. "moves with the hand" where the
     hand's target has not come to rest either, in contact or not at the end. "no contact" where the world never acted,
     "left the surface: no contact at rest" where it acts no more at rest, "too short to judge" for less than half a
-    second.
+    second. Where the hand drew more than `RESERVE`, that comes first: "draws 47.5 J: moves with the hand"; a verdict
+    "swings" stands alone, as a swing that the hand does not make draws energy.
     """
+    words, drawn = _met(contact), drawn_energy(contact)
+    return words if words == "swings" or drawn <= RESERVE else f"draws {_in_joules(drawn)}: {words}"
+
+
+def drawn_energy(contact: Contact) -> float:
+    """Return the energy that the hand drew, as far as it is known [J]; that of a moving surface is not its own."""
+    if contact.drawn_J is not None:
+        return contact.drawn_J
+    return 0.0 if contact.surface_moves else max(0.0, -(contact.least_energy_J or 0.0))
+
+
+def _in_joules(energy: float) -> str:
+    return f"{1e3 * energy:.3g} mJ" if energy < 1 else f"{energy:.3g} J"
+
+
+def _met(contact: Contact) -> str:
+    """Return what position and force came to."""
     if contact.touched is False:
         return "no contact"
     if contact.seconds is not None and contact.seconds < JUDGED_FROM:

@@ -255,5 +255,11 @@ def _verdict(contact: Contact, alone: bool) -> str:
         words = re.sub(r" (?=by|with|and|not quiet)|(?<=[,:]) ", "\n", words)
     if contact.surface_moves:
         return words
-    good = contact.quiet and contact.exact is not False and contact.touched_at_rest is not False
+    passive = verdicts.drawn_energy(contact) <= verdicts.RESERVE
+    good = (
+        passive
+        and contact.quiet
+        and contact.exact is not False
+        and contact.touched_at_rest is not False
+    )
     return f"[{'green' if good else 'yellow' if contact.still else 'red'}]{words}[/]"
