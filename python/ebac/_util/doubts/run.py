@@ -26,10 +26,12 @@ def left(trace: Trace) -> str:
         return ""
     kinematics = trace.scenario.device.kinematics
     stops = np.atleast_1d(kinematics.travel * kinematics.stops)
-    x = np.abs(trace["true.x"]).reshape(len(trace), -1)
-    far = x - stops[: x.shape[1]]
-    if not far.max() > 0:
+    x = trace["true.x"].reshape(len(trace), -1)
+    stops = stops[: x.shape[1]]
+    if (x.max(axis=0) <= stops).all() and (x.min(axis=0) >= -stops).all():
         return ""
+    x = np.abs(x)
+    far = x - stops
     first, axis = int((far > 0).any(axis=1).argmax()), int(far.max(axis=0).argmax())
     return (
         f"the handle leaves the workspace of its device after {trace['t'][first]:.4g} s and is up to "
