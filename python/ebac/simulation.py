@@ -200,7 +200,7 @@ def simulate(
     _check_observer(finished, scenario)
     by_user = remarks.wanted()
     if by_user:
-        _warn(doubts_before(scenario, quick=True))
+        warn_of(doubts_before(scenario, quick=True))
     errors: list[BaseException] = []
     try:
         if is_core_law(finished):
@@ -223,7 +223,7 @@ def simulate(
     if mine is not None and (remark := mine.remark()):
         warnings.warn(remark, stacklevel=2)
     if by_user:
-        _warn(trace.doubts())
+        warn_of(trace.doubts())
     return trace
 
 
@@ -232,8 +232,8 @@ def hidden_by_pytest(failure: Any) -> bool:
     return isinstance(failure.value, (LoopFault, KeyError, TypeError, ValueError))
 
 
-def _warn(doubts: tuple[str, ...]) -> None:
-    """Warn at the line that called `simulate`."""
+def warn_of(doubts: tuple[str, ...]) -> None:
+    """Warn at the line that called the function which calls this one."""
     for text in doubts:
         warnings.warn(text, DoubtWarning, stacklevel=3)
 

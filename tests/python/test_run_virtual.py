@@ -348,6 +348,22 @@ def test_another_motor_without_a_thermal_time_of_its_own_is_noted() -> None:
     assert said("") == []
 
 
+def test_a_configuration_lists_its_doubts_and_its_simulation_warns_of_them() -> None:
+    known = Configuration.load(EXAMPLE)
+    assert known.doubts() == ()
+    assert known.sensor is not None
+    coarse = known.sensor.replace(counts_per_force=1.0)
+    soft = known.replace(sensor=coarse, environment=ebac.Wall(stiffness=5.0))
+    assert [text.partition(":")[0] for text in soft.doubts()] == [
+        "environment.stiffness",
+        "sensor.counts_per_force = 1 counts/(N)",
+    ]
+    with pytest.warns(ebac.DoubtWarning) as caught:
+        soft.simulate(seconds=0.1)
+    assert [str(one.message) for one in caught][:2] == list(soft.doubts())
+    assert caught[0].filename == __file__
+
+
 def test_drives_with_the_sync_period_of_another_rate_are_noted() -> None:
     known = Configuration.load(EXAMPLE)
     slower = known.replace(timing=known.timing.replace(dt=2e-3))

@@ -103,13 +103,9 @@ def note_profiles(network: Network) -> None:
 
 def note_configuration(file: Path | str, known: Configuration) -> None:
     """Print what of a configuration is likely not meant: of device, wall, force sensor, and their limits."""
-    from ebac._util.doubts import configuration, sensor
+    from ebac._util.doubts.configuration import all_doubts
 
-    note_device(file, known.device)
-    note_world(file, known.environment)
-    if known.sensor is not None:
-        _print(*sensor.doubts(known.sensor), where=file)
-    _print(*configuration.doubts(known), where=file)
+    _print(*all_doubts(known, no_observer=NO_OBSERVER), where=file)
 
 
 def note_weak_motor(population: Operators, base: Scenario) -> None:

@@ -261,6 +261,18 @@ class Configuration:
         )
         return on_its_observer(made, self.law)
 
+    def doubts(self) -> tuple[str, ...]:
+        """Return what is possible, but more likely not meant, a text for each, with the remedy; commands print these.
+
+        They are those of the device as in `Scenario.doubts`, a stiffness or counts of the force sensor in a wrong
+        unit, drives for another motor, with limits below or above those of the device, or for another sample time, a
+        default wall or weight that no table names, limits that hardly protect, and parameters of the law that are
+        those of another device.
+        """
+        from ebac._util.doubts.configuration import all_doubts
+
+        return all_doubts(self)
+
     def timed_bus(self) -> TimedBus:
         """Return the simulated bus, with bit rate, monitors and waiting time as configured."""
         from ebac.hardware.timed_bus import timed_bus
@@ -298,10 +310,16 @@ class Configuration:
             When the handle, which begins at its zero, would begin inside the virtual world.
         ValueError
             When the loop does not wait long enough for the answers; the message contains both times.
+
+        Warns
+        -----
+        DoubtWarning
+            For what `doubts` lists before the run, and `Trace.doubts` after it.
         """
+        from ebac._util import remarks
         from ebac.hardware.axis_positions import check_outside, positions_at_zero
         from ebac.hardware.drive_limits import held_back
-        from ebac.simulation import hidden_by_pytest, simulate
+        from ebac.simulation import hidden_by_pytest, simulate, warn_of
 
         __tracebackhide__ = hidden_by_pytest
         self._refuse_wrong_wiring()
@@ -309,7 +327,9 @@ class Configuration:
         scenario = self._on_virtual_clock(seconds)
         if not bus_time:  # a bus that takes time has the limits of its drives
             scenario = scenario.replace(device=held_back(scenario.device, self.drives))
-        return simulate(
+        if by_user := remarks.wanted():
+            warn_of(self.doubts())
+        trace = simulate(
             scenario,
             self.design(),
             through="can",
@@ -318,6 +338,9 @@ class Configuration:
             soft_start=self.soft_start,
             ramp_down=self.ramp_down,
         )
+        if by_user:
+            warn_of(trace.doubts())
+        return trace
 
     def _on_virtual_clock(self, seconds: float | None = None) -> Scenario:
         """Return the scenario with the counts and the range of the configured sensor, which no network applies."""

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from ebac._util.doubts import drives, law
+from ebac._util.doubts import device as of_device
+from ebac._util.doubts import drives, law, sensor, wall
 
 if TYPE_CHECKING:
     from ebac.hardware import Configuration
@@ -24,8 +25,22 @@ PROTECTS = (
 LOOSE = 10
 
 
+def all_doubts(known: Configuration, *, no_observer: str = "observer = false") -> tuple[str, ...]:
+    """Return what of a configuration is likely not meant: of device, wall, force sensor, and their limits.
+
+    `no_observer` is how the reader turns the observer off.
+    """
+    found = [
+        *of_device.doubts(known.device, no_observer=no_observer),
+        wall.of_world(known.environment),
+        *([] if known.sensor is None else sensor.doubts(known.sensor)),
+        *doubts(known),
+    ]
+    return tuple(filter(None, found))
+
+
 def doubts(known: Configuration) -> list[str]:
-    """Return a sentence for each number that is likely not meant, with the remedy."""
+    """Return a sentence for each number of the run that is likely not meant, with the remedy."""
     return [
         *_default_wall(known),
         *_weight_of_the_joystick(known),
