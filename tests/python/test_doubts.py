@@ -130,9 +130,17 @@ class Quiet:
         pass
 
 
-def test_the_command_line_notes_and_does_not_warn() -> None:
+def test_the_command_line_notes_and_does_not_warn(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
     words = "wall --law ebac --wall-position -0.005 --seconds 0.1 --no-files"
     said = " ".join(CliRunner().invoke(app, words.split()).stderr.split())
     assert said.count("the handle begins 5 mm inside the wall") == 1
     assert said.startswith("Note: --wall-position: the handle begins")
     assert "DoubtWarning" not in said
+    study = "study --law ebac --hands 1 --population random --condition d1K10 --seconds 0.5"
+    Path("inside.toml").write_text('[environment]\ntype = "Wall"\nposition = -0.005\n')
+    words = [*study.split(), "--no-files", "--scenario", "inside.toml"]
+    said = CliRunner().invoke(app, words).stderr
+    assert "begins" not in said, "hands of a population begin before the wall, by their approach"

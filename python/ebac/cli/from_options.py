@@ -41,9 +41,7 @@ def _scenario(given: dict[str, Any], seconds: float | None) -> Scenario:
             observer=_observer(given, device),
         ),
     )  # fmt: skip
-    place = given.get("wall_position")
-    doubtful.note_place(place, file, made)
-    doubtful.note_start(place, file, made)
+    doubtful.note_place(given.get("wall_position"), file, made)
     return made
 
 

@@ -89,6 +89,7 @@ def wall(
         laws = changed_laws.beside(by_name.laws(law or DEFAULT_LAWS), change or [])
         logs = wall_results.log_names(log, list(laws), force=to.force)
         chosen = from_options.scenario(setup, engine)
+        doubtful.note_start(setup.wall_position, setup.scenario, chosen)
         _check_length(chosen)
         warning = ""
         if through is not None:
