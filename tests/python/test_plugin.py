@@ -151,6 +151,7 @@ def test_a_folder_of_all_golden_traces_can_be_named(project: pytest.Pytester) ->
 WRONG = [
     ("columns=['x', 'nonsense']", "no column is called 'nonsense'; there are: "),
     ("columns='f_env'", "columns = 'f_env': must be a sequence, such as ['f_env']"),
+    ("untl=0.05", "TraceRegression.check has no parameter 'untl', did you mean 'until'; it has"),
     ("every=0", "every = 0: must be at least 1"),
     ("every=2.5", "every = 2.5: must be a whole number"),
     ("until=float('nan')", "stop = nan s: must be a time"),

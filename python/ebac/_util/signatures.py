@@ -57,6 +57,8 @@ def python_sentence(
     kinds = inspect.Parameter
     label = called.__name__ if isinstance(called, type) else _public_name(called)
     parameters = list(inspect.signature(called).parameters.values())
+    if parameters and parameters[0].name == "self" and not isinstance(called, type):
+        label, parameters, values = called.__qualname__, parameters[1:], values[1:]
     if given and parameters[0].kind is kinds.VAR_POSITIONAL:
         return f"{label} takes its {parameters[0].name} in order, not by name: {next(iter(given))}"
     takes = [

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 from ebac._util.arguments import require, whole
 from ebac._util.atomic_file import draft, write_text
 from ebac._util.file_names import file_name
+from ebac._util.wrong_calls import plain_function
 from ebac.metrics import contact
 from ebac.testing.compare import Comparison, check_columns, compare
 from ebac.testing.metric import METRICS, Metrics, check_names, differences, metrics_of
@@ -74,6 +75,7 @@ class TraceRegression:
             pictures=request.getfixturevalue("tmp_path"),
         )
 
+    @plain_function
     def check(
         self,
         trace: Trace,
