@@ -1,6 +1,7 @@
 #include "fields.hpp"
 
 #include <cmath>
+#include <limits>
 
 #include "ebac/core/sample.hpp"
 
@@ -49,6 +50,15 @@ void assign(const FieldRow& field, void* target, py::handle value) {
     case FieldKind::kBool:
       field.in<bool>(target) = value.cast<bool>();
   }
+}
+
+/// A whole number as a double; one beyond them is infinite.
+double nearest_double(py::handle whole) {
+  const double value = PyLong_AsDouble(whole.ptr());
+  if (PyErr_Occurred() == nullptr) return value;
+  PyErr_Clear();
+  const bool negative = whole < py::int_(0);
+  return std::copysign(std::numeric_limits<double>::infinity(), negative ? -1.0 : 1.0);
 }
 
 std::string listed(const std::vector<std::string>& names) {
@@ -124,9 +134,11 @@ bool set_field(const FieldTable& table, void* target, const std::string& owner,
     assign(*field, target, value);
   } catch (const py::cast_error&) {
     const bool whole = py::isinstance<py::int_>(value) && !py::isinstance<py::bool_>(value);
-    if (field->kind == FieldKind::kInt && whole) {  // too large
+    const bool numeric = field->kind == FieldKind::kInt || field->kind == FieldKind::kInt64 ||
+                         field->kind == FieldKind::kDouble;
+    if (whole && numeric) {  // too large
       throw std::invalid_argument(
-          range_message(owner, name, value.cast<double>(), field->unit, field->low, field->high));
+          range_message(owner, name, nearest_double(value), field->unit, field->low, field->high));
     }
     throw py::type_error(owner + "." + name + " = " + py::cast<std::string>(py::repr(value)) +
                          ": must be " + plain_type(field->kind) +

@@ -370,3 +370,17 @@ def test_a_condition_that_gives_nothing_is_refused_by_its_name() -> None:
 def test_a_whole_number_beyond_a_double_is_refused_by_name() -> None:
     with pytest.raises(ValueError, match=r"amplitude = 1000000000\.\.\.: is too large"):
         number("amplitude", 10**400)
+
+
+@pytest.mark.parametrize(
+    ("make", "message"),
+    [
+        (lambda: ebac.Timing(delay=10**400), "Timing.delay = inf samples: must lie in [0, 8] samples"),
+        (lambda: ebac.Timing(delay=-(10**400)), "Timing.delay = -inf samples: must lie in [0, 8] samples"),
+        (lambda: ebac.Wall(stiffness=10**400), "Wall.stiffness = inf N/m: must lie in [0, 1e+07] N/m"),
+        (lambda: ebac.Linear(axes=2**40), "Linear.axes = 1099511627776: must lie in [1, 3]"),
+    ],
+)  # fmt: skip
+def test_a_whole_number_beyond_its_type_is_out_of_range(make: Any, message: str) -> None:
+    with pytest.raises(ValueError, match=re.escape(message)):
+        make()
