@@ -35,7 +35,7 @@ def __dir__() -> list[str]:
 
 
 class DoubtWarning(UserWarning):
-    """A warning of `simulate`: a number is possible, but more likely not meant. See `Scenario.doubts`, `Trace.doubts`.
+    """A number is possible, but more likely not meant. See `Scenario.doubts`, `Trace.doubts`.
 
     To turn all of them off: `warnings.simplefilter("ignore", ebac.DoubtWarning)`.
     """
@@ -232,10 +232,10 @@ def hidden_by_pytest(failure: Any) -> bool:
     return isinstance(failure.value, (LoopFault, KeyError, TypeError, ValueError))
 
 
-def warn_of(doubts: tuple[str, ...]) -> None:
-    """Warn at the line that called the function which calls this one."""
+def warn_of(doubts: tuple[str, ...], *, wrapped: bool = False) -> None:
+    """Warn at the line that called the function which calls this one; `wrapped` is whether by a decorator."""
     for text in doubts:
-        warnings.warn(text, DoubtWarning, stacklevel=3)
+        warnings.warn(text, DoubtWarning, stacklevel=4 if wrapped else 3)
 
 
 def _too_long(scenario: Scenario) -> str:

@@ -144,3 +144,23 @@ def test_the_command_line_notes_and_does_not_warn(
     words = [*study.split(), "--no-files", "--scenario", "inside.toml"]
     said = CliRunner().invoke(app, words).stderr
     assert "begins" not in said, "hands of a population begin before the wall, by their approach"
+
+
+def test_studies_warn_once_at_the_line_that_calls_them() -> None:
+    weak = ebac.Device(motor=ebac.Motor(rated_torque=0.01))
+    base = ebac.Scenario(device=weak, seconds=0.1)
+    hands = ebac.Operators.grid()[-2:]
+    walls = {"population": hands, "stiffnesses": [1e4, 2e4]}  # N/m
+    calls: dict[str, Any] = {
+        "2 of the 2 hands press with more": lambda: ebac.study(hands, "tca", base=base),
+        "at a wall of 10 kN/m and stiffer": lambda: ebac.stiffest("tca", base=base, **walls),
+    }
+    for words, call in calls.items():
+        with pytest.warns(ebac.DoubtWarning) as caught:
+            call()
+        doubted = [one for one in caught if one.category is ebac.DoubtWarning]
+        texts = [str(one.message) for one in doubted]
+        assert [text.partition(":")[0] for text in texts[:1]] == ["Scenario.seconds = 0.1 s"]
+        assert len(texts) == 2
+        assert words in texts[1]
+        assert {one.filename for one in doubted} == {__file__}

@@ -10,9 +10,12 @@ from contextvars import ContextVar
 _silent: ContextVar[bool] = ContextVar("silent", default=False)
 
 
-def wanted() -> bool:
-    """Return whether a line outside the package called the function that asks: a study of many runs is no such line."""
-    name = sys._getframe(2).f_globals.get("__name__", "")
+def wanted(*, wrapped: bool = False) -> bool:
+    """Return whether a line outside the package called the function that asks: a study of many runs is no such line.
+
+    `wrapped` is whether that function stands behind a decorator.
+    """
+    name = sys._getframe(3 if wrapped else 2).f_globals.get("__name__", "")
     return not (_silent.get() or name == "ebac" or name.startswith("ebac."))
 
 

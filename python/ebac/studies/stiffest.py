@@ -10,13 +10,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ebac._core import Wall
+from ebac._util import remarks
 from ebac._util.arguments import number, of_percent, require
+from ebac._util.doubts.study import doubts
 from ebac._util.progress import Progress
 from ebac._util.sequences import several_numbers
 from ebac._util.wrong_calls import plain_function
 from ebac.laws import LAWS
 from ebac.operators import Operators
 from ebac.scenario import Scenario
+from ebac.simulation import warn_of
 from ebac.studies.condition import wall_of
 from ebac.studies.stiffest_result import Stiffest
 from ebac.studies.study import study
@@ -67,6 +70,11 @@ def stiffest(
     -------
     Stiffest
 
+    Warns
+    -----
+    DoubtWarning
+        For what is doubtful of the device and the length of `base`, and from which wall on its motor is too weak.
+
     Raises
     ------
     SweepInterrupted
@@ -90,6 +98,8 @@ def stiffest(
     walls = [wall_of(stiffness) for stiffness in ladder.tolist()]
     if why := no_ideal_rest(walls[0].scenarios(hands[:1], scenario)[0]):
         raise ValueError(f"stiffest: no hand can be judged: {why}; give another base")
+    if base is not None and remarks.wanted(wrapped=True):
+        warn_of(doubts(hands, scenario, ladder.tolist()), wrapped=True)
     found = study(
         hands, list(LAWS.values()) if laws is None else laws, walls, base=scenario, seed=seed,
         threads=threads, executor=executor, out=out, resume=resume, progress=progress,

@@ -12,11 +12,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ebac._core import Wall
+from ebac._util import remarks
 from ebac._util.arguments import require, whole
+from ebac._util.doubts.study import doubts
 from ebac._util.progress import Progress
 from ebac._util.wrong_calls import plain_function
 from ebac.operators import Operators
 from ebac.scenario import Scenario
+from ebac.simulation import warn_of
 from ebac.studies.condition import Condition, known_under
 from ebac.studies.conditions import conditions as find
 from ebac.studies.ideal import ideal_contacts, settled_in_time
@@ -67,6 +70,8 @@ def study(
     UserWarning
         When hands come to rest before the surface, and when the hand of `base` has a model, which no hand of a
         population has.
+    DoubtWarning
+        For what is doubtful of the device and the length of `base`, and where its motor is too weak for hands.
     """
     require(population, Operators, "ebac.study", "a population, an Operators")
     require(base, (Scenario, NoneType), "ebac.study", "a Scenario as its base")
@@ -84,6 +89,8 @@ def study(
             "whose change sets it has it under every law",
             stacklevel=3,
         )
+    if base is not None and remarks.wanted(wrapped=True):
+        warn_of(doubts(population, base), wrapped=True)
     if progress is not None:
         hands = sum(len(c.drives) or len(population) for c in chosen)
         progress(0, hands * len(named))  # the scenarios of many take seconds

@@ -2,5 +2,5 @@
 
 A text names the fields of a scenario, which are the keys of its file. Where the reader gives a number in another way, a
 function takes the name of that. The command line prints them as notes; in Python `doubts()`
-of a scenario and of a trace lists them, and `simulate` warns.
+of a scenario and of a trace lists them, and `simulate`, `study` and `stiffest` warn.
 """
