@@ -21,7 +21,7 @@ namespace ebac {
 
 /// Runs ticks and records their rows: Arm, Run, Stop, then Idle or Fault. A fault latches: its row
 /// and the next ones, `stop_ticks` in all, command zero force, the device is stopped if it has
-/// `stop`, and the loop ends; it does not start again until `reset`.
+/// `stop`, and the loop ends for good: the next run takes a new loop.
 template <Device D, Clock C, AxesController Law>
 class Loop {
  public:
@@ -78,15 +78,6 @@ class Loop {
     }
     ++sample_.tick;
     return !run_state_.finish(at_rest());
-  }
-
-  /// Lets a loop that ended by a fault start again.
-  bool reset() EBAC_RT {
-    if (!run_state_.reset()) return false;
-    sample_.fault = Fault::kNone;
-    law_.reset();
-    restart();
-    return true;
   }
 
   LoopState state() const EBAC_RT { return run_state_.state(); }

@@ -40,19 +40,12 @@ class RunStateMachine {
  public:
   explicit RunStateMachine(const RunPlan& plan = {}) EBAC_RT : plan_(plan) {}
 
-  /// False if a fault is latched: it must be reset first.
+  /// False if a fault is latched, as it stays.
   bool start() EBAC_RT {
     if (state_ != LoopState::kIdle) return false;
     state_ = plan_.arm ? LoopState::kArm : LoopState::kRun;
     ran_ = stopped_ = 0;
     gain_ = plan_.soft_start > 0 || plan_.arm ? 0 : 1;
-    fault_ = Fault::kNone;
-    return true;
-  }
-  /// Clears a fault. Refused while the loop is still stopping.
-  bool reset() EBAC_RT {
-    if (state_ != LoopState::kFault) return false;
-    state_ = LoopState::kIdle;
     fault_ = Fault::kNone;
     return true;
   }
