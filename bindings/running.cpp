@@ -89,10 +89,10 @@ RunSetup make_setup(const DeviceModel& device, const Environment& environment, d
           .realtime = realtime};
 }
 
-using Told = std::tuple<std::int64_t, std::uint64_t, std::string>;
+using AppliedChange = std::tuple<std::int64_t, std::uint64_t, std::string>;
 
 /// Changes from number `start` on, as far as they are kept: from which tick, serial number, of what.
-std::vector<Told> changes_from(Running& run, std::size_t start) {
+std::vector<AppliedChange> changes_from(Running& run, std::size_t start) {
   const auto name = [](UpdateOf what) {
     switch (what) {
       case UpdateOf::kLaw:
@@ -106,13 +106,13 @@ std::vector<Told> changes_from(Running& run, std::size_t start) {
     }
     return "";
   };
-  std::vector<Told> told;
+  std::vector<AppliedChange> found;
   AppliedUpdates& changes = run.changes();
   changes.read(start);
   for (std::size_t i = changes.first(); i < changes.size(); ++i) {
-    told.emplace_back(changes[i].tick, changes[i].serial, name(changes[i].what));
+    found.emplace_back(changes[i].tick, changes[i].serial, name(changes[i].what));
   }
-  return told;
+  return found;
 }
 
 void require_done(const Running& run) {
@@ -121,7 +121,7 @@ void require_done(const Running& run) {
 
 void bind_stepped_run(py::module_& m) {
   py::class_<SteppedRun, Running, std::shared_ptr<SteppedRun>>(
-      m, "SteppedRun", "A loop on a virtual clock that takes its ticks when it is told to.")
+      m, "SteppedRun", "A loop on a virtual clock that takes its ticks when it is asked to.")
       .def(
           "advance",
           [](SteppedRun& run, std::int64_t ticks) {

@@ -16,7 +16,7 @@
 
 namespace ebac::python {
 
-/// A simulated run through CAN on a virtual clock, which takes its ticks when it is told to. It can be changed as one in
+/// A simulated run through CAN on a virtual clock, which takes its ticks when it is asked to. It can be changed as one in
 /// real time: the same orders at the same ticks give the same bits.
 class SteppedRun final : public Running {
  public:

@@ -1906,7 +1906,7 @@ class Step:
 
 class SteppedRun(Running):
     """
-    A loop on a virtual clock that takes its ticks when it is told to.
+    A loop on a virtual clock that takes its ticks when it is asked to.
     """
     def advance(self, ticks: typing.SupportsInt | typing.SupportsIndex) -> int:
         """

@@ -42,7 +42,7 @@ LinkEnd::LinkEnd(Role role, const LinkParams& params, double dt, const sensor::E
       session_(role, watched(params, dt), dt, slave_ ? 0 : std::random_device{}()),
       socket_(at),
       peer_(peer) {
-  told_ = {.from_slave = slave_,
+  sent_ = {.from_slave = slave_,
            .session = session_.number(),
            .run = session_.run()};  // said by whoever leaves before its first tick
 }
@@ -138,7 +138,7 @@ void LinkEnd::note(EventOf what, double value) EBAC_RT {
 
 void LinkEnd::end(const Four& value, const Four& at) EBAC_RT {
   const std::uint32_t fault = fault_.load(std::memory_order_relaxed);
-  told_ = {.from_slave = slave_,
+  sent_ = {.from_slave = slave_,
            .lost = watch().lost() || fault != 0,
            .session = session_.number(),
            .value = value[0],
@@ -157,18 +157,18 @@ void LinkEnd::end(const Four& value, const Four& at) EBAC_RT {
 }
 
 void LinkEnd::send() EBAC_RT {
-  told_.sequence = session_.next();
-  told_.echo = session_.receiver().newest();
-  told_.stamp = now();
-  sent_at_[told_.sequence % sent_at_.size()] = told_.stamp;
+  sent_.sequence = session_.next();
+  sent_.echo = session_.receiver().newest();
+  sent_.stamp = now();
+  sent_at_[sent_.sequence % sent_at_.size()] = sent_.stamp;
   if (!peer_) return;
-  socket_.send(teleop::encode(told_), *peer_);
+  socket_.send(teleop::encode(sent_), *peer_);
   ++report_.sent;
 }
 
 void LinkEnd::leave() noexcept {
-  told_.lost = told_.leaving = true;
-  told_.fault = fault_.load(std::memory_order_relaxed);
+  sent_.lost = sent_.leaving = true;
+  sent_.fault = fault_.load(std::memory_order_relaxed);
   send();
   shown_.post(report_);
 }

@@ -162,7 +162,7 @@ class LinkEnd {
   sensor::UdpSocket socket_;
   std::optional<sensor::Endpoint> peer_;
   teleop::Packet heard_{};
-  teleop::Packet told_{};  // the last one sent
+  teleop::Packet sent_{};  // the last one sent
   bool far_ended_ = false;
   double t_ = 0;                              // s
   double back_ = 0;                           // s, since the link is back
