@@ -132,6 +132,23 @@ def test_a_wrong_profile_is_refused_with_its_line(
     assert said.startswith(f"my.toml, line {line}: {message}"), said
 
 
+@pytest.mark.parametrize(
+    "text", ["", "# later\n", 'about = "x"\n', "[motor]\n[pdo]\n", "without = []\n"]
+)
+def test_a_profile_that_sets_nothing_is_refused(text: str, tmp_path: Path) -> None:
+    """Its drive was simulated without PDOs, or blamed for a torque that it would hold."""
+    file = tmp_path / "my.toml"
+    file.write_text(text, encoding="utf-8")
+    with pytest.raises(
+        drives.ProfileError, match=r"my\.toml: sets nothing: a profile needs tables"
+    ):
+        drives.load(file, nodes=[1])
+    network = tmp_path / "net.toml"
+    network.write_text('[[node]]\nid = 1\nprofile = "my.toml"\n', encoding="utf-8")
+    with pytest.raises(drives.ProfileError, match=r"my\.toml: sets nothing"):
+        drives.load(network)
+
+
 def test_an_event_pdo_without_inhibit_time_would_flood_the_bus() -> None:
     text = '[pdo.tpdo1]\nobjects = ["statusword"]\ntype = 255\n'
     assert "line 1: pdo.tpdo1.type = 255: an event may come at any rate" in refused(text)
@@ -213,6 +230,15 @@ def test_a_wrong_network_file_is_refused_with_its_line(
     with pytest.raises(drives.ProfileError) as caught:
         drives.load(file)
     assert str(caught.value).startswith(f"{file}, {message}"), caught.value
+
+
+def test_a_network_file_without_a_drive_is_refused(tmp_path: Path) -> None:
+    file = tmp_path / "net.toml"
+    file.write_text("node = []\n", encoding="utf-8")
+    with pytest.raises(
+        drives.ProfileError, match=r"line 1: node: must be written \[\[node\]\], once"
+    ):
+        drives.load(file)
 
 
 def test_a_bit_rate_that_is_given_is_that_of_a_file_without_one(tmp_path: Path) -> None:

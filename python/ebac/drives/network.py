@@ -216,7 +216,8 @@ def _network(source: Source, called: str, asked: int | None) -> Network:
 
 def _nodes(source: Source) -> tuple[Node, ...]:
     tables = source.table["node"]
-    if not isinstance(tables, list) or not all(isinstance(item, Mapping) for item in tables):
+    tables_only = isinstance(tables, list) and all(isinstance(item, Mapping) for item in tables)
+    if not tables_only or not tables:
         raise source.refuse(("node",), "node: must be written [[node]], once for each drive")
     nodes: list[Node] = []
     for i, table in enumerate(tables):

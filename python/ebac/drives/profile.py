@@ -210,6 +210,11 @@ def read_profile(source: Source, *, base: Profile | None = None, at: Where = ())
     for name, wrong in _broken({**defaults, **merged}, without):
         key: Where = (*at, *name.split("."))
         raise source.refuse(key, wrong)
+    if base is None and not any(table.get(title) for title in (*TABLES, "pdo", "objects")):
+        raise ProfileError(
+            f"{source.name}: sets nothing: a profile needs tables such as [limits] and [pdo.rpdo1]; `ebac drive "
+            "profile generic-cia402` prints one to start from"
+        )
     pdos = {pdo.name: pdo for pdo in base.pdos} if base else {}
     silence = base.silence if base else True
     if "pdo" in table and not at:
