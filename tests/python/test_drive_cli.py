@@ -259,6 +259,14 @@ def test_a_configuration_of_a_run_is_not_taken_for_a_network_file(
         assert message.endswith(wanted.replace(" ", "")), message
 
 
+def test_the_keys_of_timing_have_their_units(drive: Run) -> None:
+    (row,) = drive("timing", "joystick", "--ticks", "20", "--json")["rows"]
+    assert {key for key, value in row.items() if isinstance(value, float)} == {
+        *("dt_s", "answer_s", "mean_s", "worst_s", "load_share")
+    }
+    assert row["bitrate_bit_per_s"] == 1_000_000
+
+
 def test_apply_asks_only_what_it_does(drive: Run) -> None:
     assert "Disable node 1 and write this?" in said(drive("apply", "-n", "1", code=2))
     drive("apply", "-n", "1", "--yes")

@@ -38,7 +38,7 @@ class StudyRow:
     physicians: int
     reached_share: float
     touched_mean: float
-    seconds: float
+    seconds_s: float
     path_m: float
     most_force_N: float
     most_force_90_N: float
@@ -242,7 +242,7 @@ def _row(
         physicians=len(force),
         reached_share=float(found["reached"].mean()),
         touched_mean=float(found["touched"].mean()),
-        seconds=float(np.median(found["seconds"])),
+        seconds_s=float(np.median(found["seconds"])),
         path_m=float(np.median(found["path"])),
         most_force_N=float(np.median(force)),
         most_force_90_N=float(np.quantile(force, 0.9)),

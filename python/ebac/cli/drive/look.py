@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import asdict
 from typing import TYPE_CHECKING, Annotated
 
 import typer
@@ -24,7 +25,7 @@ from ebac.cli.drive.options import (
 )
 
 if TYPE_CHECKING:
-    from ebac.drives import Change, DriveBus, Network
+    from ebac.drives import BusTiming, Change, DriveBus, Network
 
 
 def scan(
@@ -146,8 +147,6 @@ def timing(
 
     * `ebac drive timing generic-cia402 --node 1 --bitrate 500000 --answer-share 0.9`: one drive on a slower bus
     """
-    from dataclasses import asdict
-
     from ebac import drives as library
 
     with reporting():
@@ -162,11 +161,20 @@ def timing(
             seed=seed,
         )
     if as_json:
-        typer.echo(output.document("drive timing", [asdict(found)], profile=network.name))
+        typer.echo(output.document("drive timing", [_timing_row(found)], profile=network.name))
     else:
         output.say(f"Simulation. {found.describe()}.")
     if not found.good:
         raise typer.Exit(output.FAILED)
+
+
+def _timing_row(found: BusTiming) -> dict[str, object]:
+    units = {"bitrate": "bit_per_s", "load": "share"}
+    units |= dict.fromkeys(("dt", "answer", "mean", "worst"), "s")
+    return {
+        f"{key}_{units[key]}" if key in units else key: value
+        for key, value in asdict(found).items()
+    }
 
 
 def verify(

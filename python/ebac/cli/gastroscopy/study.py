@@ -106,7 +106,7 @@ def _show(found: GastroscopyStudy) -> None:
             "yes" if row.feedback else "no",
             f"{row.reached_share:.0%}",
             f"{row.touched_mean:.2f}",
-            f"{row.seconds:.1f} s",
+            f"{row.seconds_s:.1f} s",
             f"{row.most_force_N:.2f} N",
             f"{row.most_force_90_N:.2f} N",
             f"{row.impulse_N_s:.1f} N s",
