@@ -377,6 +377,21 @@ def test_drives_with_the_sync_period_of_another_rate_are_noted() -> None:
     assert not [one for one in doubtful.doubts(without_drives) if "sync.period" in one]
 
 
+def test_a_rate_other_than_that_of_the_drives_is_noted() -> None:
+    """The note of the file came before the option, so that a rate that no drive holds was taken in silence."""
+    asked = [*RUN[:3], "--seconds", "0.05", "--no-files"]
+    done = CliRunner().invoke(app, [*asked, "--rate", "500"])
+    assert done.exit_code == 0, done.output
+    words = " ".join(done.stderr.split())
+    assert (
+        "--rate 500: nodes 1, 2 of the built-in joystick: sync.period = 0.001 s in its profile, timing.dt = 0.002 s: "
+        "`ebac run` takes timing.dt for 0x1006, and refuses a drive that holds anything else there"
+    ) in words
+    assert words.count("sync.period") == 2, "once, and in the remedy"
+    assert "`ebac drive apply` it, or leave out --rate" in words
+    assert "sync.period" not in CliRunner().invoke(app, [*asked, "--rate", "1000"]).stderr
+
+
 def test_limits_that_hardly_protect_are_noted() -> None:
     known = Configuration.load(EXAMPLE)
     loose = known.replace(limits=known.limits.replace(speed=100.0, end=1.0, pause=0.2))

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 #: Options that give what the library names otherwise.
 NO_OBSERVER, STIFFNESS, POSITION = "--no-observer", "--wall-stiffness", "--wall-position"
-TARGET, SECONDS = "--hand-target", "--seconds"
+TARGET, SECONDS, RATE = "--hand-target", "--seconds", "--rate"
 
 
 def _print(*texts: str, where: Path | str = "") -> None:
@@ -106,6 +106,13 @@ def note_configuration(file: Path | str, known: Configuration) -> None:
     from ebac._util.doubts.configuration import all_doubts
 
     _print(*all_doubts(known, no_observer=NO_OBSERVER), where=file)
+
+
+def note_rate(rate: float, known: Configuration) -> None:
+    """Print that the drives have the SYNC period of another rate than that of --rate [Hz]."""
+    from ebac._util.doubts.drives import of_rate
+
+    _print(*of_rate(known, RATE), where=f"{RATE} {rate:g}")
 
 
 def note_weak_motor(population: Operators, base: Scenario) -> None:

@@ -48,8 +48,10 @@ def nodes_of(configuration: Configuration, *, simulate: bool) -> tuple[Node, ...
     )
 
 
-def other_sync(known: Configuration) -> list[tuple[int, str, str]]:
-    """Return the drives whose profile has another SYNC period than the loop.
+def other_sync(
+    known: Configuration, *, own: str = "timing.dt = {:g}"
+) -> list[tuple[int, str, str]]:
+    """Return the drives whose profile has another SYNC period than the loop; `own` is how the loop takes theirs.
 
     Returns
     -------
@@ -67,7 +69,7 @@ def other_sync(known: Configuration) -> list[tuple[int, str, str]]:
             f"sync.period = {period:g} s in its profile, timing.dt = {dt:g} s: `ebac run` takes timing.dt for 0x1006, "
             f'and {then}, because of bus.setup = "{known.setup}"'
         )
-        remedy = f"give sync.period = {dt:g} in the profile and `ebac drive apply` it, or timing.dt = {period:g}"
+        remedy = f"give sync.period = {dt:g} in the profile and `ebac drive apply` it, or {own.format(period)}"
         found.append((node.id, text, remedy if verifies else ""))
     return found
 

@@ -43,14 +43,19 @@ def _strong(known: Configuration) -> list[str]:
     return [f"{text}; {remedy}" for _, text, remedy in found]
 
 
-def _sync(known: Configuration) -> list[str]:
+def of_rate(known: Configuration, option: str) -> list[str]:
+    """Return which drives have the SYNC period of another rate than that of an option."""
+    return _sync(known, own=f"leave out {option}")
+
+
+def _sync(known: Configuration, **how: str) -> list[str]:
     from ebac._util.toml import parsed
     from ebac.hardware.drive_setup import other_sync
 
     if "bus" not in parsed(known.text):  # its drives are only simulated
         return []
     alike: dict[str, list[str]] = {}
-    for node, text, remedy in other_sync(known):
+    for node, text, remedy in other_sync(known, **how):
         if remedy:
             alike.setdefault(f"{text}; {remedy}", []).append(str(node))
     return [

@@ -41,6 +41,8 @@ def chosen(
     made.scenario()
     check_reached(made.device, made.limits, made.environment)
     made.design()
+    if rate is not None and made.timing.dt != known.timing.dt:  # else the file has it, and is noted
+        doubtful.note_rate(rate, made)
     return made
 
 
