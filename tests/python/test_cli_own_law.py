@@ -182,6 +182,45 @@ def test_a_change_beyond_the_range_of_its_field_is_refused(command: str) -> None
     assert "Damped.damping = -5 N s/m: must lie in [0, 90] N s/m" in " ".join(result.stderr.split())
 
 
+WHOLE = """
+from dataclasses import dataclass
+
+
+@dataclass
+class Window:
+    rows: int = 3
+    on: bool = True
+
+    def step(self, port):
+        return port.f_env / range(self.rows)[-1] if self.on else port.f_env
+
+    def reset(self):
+        pass
+"""
+
+
+@pytest.mark.parametrize(
+    ("change", "refused"),
+    [
+        ("rows=4", ""),
+        ("on=off", ""),
+        ("rows=1.5", "Window.rows = 1.5: must be a whole number"),
+        ("rows=inf", "Window.rows = inf: must be a whole number"),
+        ("rows=on", "Window.rows = True: must be a number"),
+        ("on=2", "Window.on = 2.0: must be on or off, in Python True or False"),
+    ],
+)
+def test_a_change_is_of_the_type_that_its_field_declares(
+    change: str, refused: str, tmp_path: Path
+) -> None:
+    """A whole number was set to 1.5, or to 4.0, with which Python does not count."""
+    (tmp_path / "whole.py").write_text(WHOLE, encoding="utf-8")
+    words = ["wall", "--law", f"{tmp_path / 'whole.py'}:Window", "--change", change, "--no-files"]
+    done = CliRunner().invoke(app, [*words, "--seconds", "1"])
+    assert done.exit_code == (2 if refused else 0), done.output
+    assert refused in " ".join(done.output.split())
+
+
 def test_a_search_changes_its_parameters_and_says_how_to_simulate_its_hand_again() -> None:
     command = "worst --law mine.py:Damped --family impact --evaluations 40 --seconds 0.5 --out"
     words = command.split()

@@ -8,7 +8,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from ebac._core import Field
-from ebac._util.arguments import number
+from ebac._util.arguments import number, whole
 from ebac.laws.protocols import is_core_law
 from ebac.laws.variant import AnyLaw, class_of
 
@@ -43,22 +43,37 @@ def fields_of(law: AnyLaw) -> Sequence[Field | PythonField]:
     return [_declared(law, one) for one in dataclasses.fields(law) if one.init]
 
 
-def refuse_outside(law: Any, changes: Mapping[str, Any]) -> None:
-    """Refuse values that lie outside the ranges that the fields of a law in Python declare.
+def as_declared(law: Any, changes: Mapping[str, Any]) -> dict[str, Any]:
+    """Return new values of a law in Python; 2.0 becomes 2 where a whole number is declared.
 
     Raises
     ------
     TypeError
-        For a value, or an end of a range, that is no number.
+        For a value that is no number, no whole number or no switch where one is declared or there, and for an end of
+        a range that is no number.
     ValueError
-        For a value outside.
+        For a value outside the range that its field declares.
     """
-    owner = law if isinstance(law, type) else type(law)
+    owner = type(law).__name__
+    found = dict(changes)
     for field in (field for field in fields_of(law) if field.name in changes):
-        if field.low is None and field.high is None:
-            continue
-        name = f"{owner.__name__}.{field.name}"
-        value = number(name, changes[field.name])
+        name, value = f"{owner}.{field.name}", changes[field.name]
+        switch = field.kind == "bool" or isinstance(getattr(law, field.name), bool)
+        if switch and not isinstance(value, bool):
+            raise TypeError(f"{name} = {value!r}: must be on or off, in Python True or False")
+        if isinstance(value, bool) and not switch:
+            raise TypeError(f"{name} = {value}: must be a number")
+        if field.kind == "int":
+            is_whole = isinstance(value, float) and value.is_integer()
+            found[field.name] = int(value) if is_whole else whole(name, value)
+        if not switch:
+            _refuse_outside(name, field, found[field.name])
+    return found
+
+
+def _refuse_outside(name: str, field: Field | PythonField, given: Any) -> None:
+    if field.low is not None or field.high is not None:
+        value = number(name, given)
         low = -math.inf if field.low is None else field.low
         high = math.inf if field.high is None else field.high
         if not low <= value <= high:

@@ -77,7 +77,7 @@ def changed(law: AnyLaw, **changes: Any) -> AnyLaw:
     Raises
     ------
     TypeError
-        For a law in Python that is no dataclass, or a parameter that it does not have.
+        For a law in Python that is no dataclass, a parameter that it does not have, or a value of a wrong type.
     ValueError
         For a value outside the range of its parameter, which a law in Python declares in its fields.
     """
@@ -92,15 +92,11 @@ def changed(law: AnyLaw, **changes: Any) -> AnyLaw:
             f"the law {law_name(law)} has no parameters to change: those of a law in Python are the fields of a "
             "dataclass; put @dataclass above its class"
         )
-    from ebac.laws.law_fields import refuse_outside  # which needs this module
+    from ebac.laws.law_fields import as_declared  # which needs this module
 
     own: Any = law
     refuse_unknown(type(law).__name__, changes, [one.name for one in dataclasses.fields(own)])
-    for name, value in changes.items():
-        if isinstance(value, bool) and not isinstance(getattr(own, name), bool):
-            raise TypeError(f"{type(law).__name__}.{name} = {value}: must be a number")
-    refuse_outside(own, changes)
-    return cast(PythonLaw, dataclasses.replace(own, **changes))
+    return cast(PythonLaw, dataclasses.replace(own, **as_declared(own, changes)))
 
 
 def class_of(law: str | type) -> type[CoreLaw]:
