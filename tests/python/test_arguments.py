@@ -16,9 +16,19 @@ import ebac
 from ebac import _core
 from ebac._util.arguments import LISTED_BY, near, number, unknown
 from ebac.cli import app
+from ebac.drives import bus_timing
+from ebac.hardware import Configuration
+from ebac.hardware.schedule import Order
+from ebac.identify.check import check
+from ebac.identify.gains.check import check_gains
 from ebac.laws.tuned_laws import tuned_laws
+from ebac.live.choices import Choices
+from ebac.plot.save import millimetres
+from ebac.realtime.jitter import beside_cyclictest
+from ebac.sensor import SensorConfig
 
 S: Any = ebac.Scenario
+CONFIGURATION = Configuration.from_toml("")
 has = "; it has: device, hand, environment, timing, seconds, jitter, seed, observer"
 
 
@@ -379,6 +389,26 @@ def test_a_whole_number_beyond_a_double_is_refused_by_name() -> None:
         (lambda: ebac.Timing(delay=-(10**400)), "Timing.delay = -inf samples: must lie in [0, 8] samples"),
         (lambda: ebac.Wall(stiffness=10**400), "Wall.stiffness = inf N/m: must lie in [0, 1e+07] N/m"),
         (lambda: ebac.Linear(axes=2**40), "Linear.axes = 1099511627776: must lie in [1, 3]"),
+        (lambda: CONFIGURATION.replace(soft_start=10**400), "Configuration.soft_start = inf s: must lie in [0, 60] s"),
+        (lambda: CONFIGURATION.replace(memory=0.5), "memory = 0.5 s: must lie in [1, 3600] s"),
+        (lambda: CONFIGURATION.scenario(seconds=10**400), "seconds = inf s: must lie in [0.01, 100000] s"),
+        (lambda: Choices().with_changes({"stiffness": 10**400}), "stiffness = inf N/m: must lie in [100, 50000] N/m"),
+        (lambda: Choices().with_changes({"delay": -(10**400)}), "delay = -inf samples: must lie in [1, 8] samples"),
+        (lambda: ebac.live.Session(CONFIGURATION, max_stiffness=10**400), "max_stiffness = inf N/m: must be a number"),
+        (lambda: Order.parse(f"1{'0' * 400} law.kp=0"), "must be a time of 0 s or more, then"),
+        (lambda: bus_timing(ebac.drives.load("joystick"), dt=10**400), "dt = inf s: must lie in [0.0001, 1] s"),
+        (lambda: bus_timing(ebac.drives.load("joystick"), seed=10**400), "seed = inf: must lie in [0, 2**64 - 1]"),
+        (lambda: SensorConfig(port=10**400), "sensor.port = 1000"),
+        (lambda: SensorConfig(sign=10**400), "sensor.sign = 1000"),
+        (lambda: SensorConfig(gone=10**400), "sensor.gone = inf s: must lie in [0.001, 60] s"),
+        (lambda: ebac.worst("eba", evaluations=10**400), "worst: evaluations = inf: must lie in [40, 1e+07]"),
+        (lambda: ebac.zwidth(rungs=10**400), "zwidth: rungs = 1000"),
+        (lambda: ebac.zwidth(epsilon=10**400), "zwidth: epsilon = 1000000000...: is too large"),
+        (lambda: ebac.gastroscope.chain(seconds=10**400), "seconds = inf s: must lie in [1, 3600] s"),
+        (lambda: check(arms=1, workers=10**400), "workers = 1000"),
+        (lambda: check_gains(logs=1, evaluations=10**400), "evaluations = 1000"),
+        (lambda: millimetres(10**400), "width = inf mm: must lie in [40, 1000] mm"),
+        (lambda: beside_cyclictest(seconds=10**400), "seconds = 1000000000...: is too large"),
     ],
 )  # fmt: skip
 def test_a_whole_number_beyond_its_type_is_out_of_range(make: Any, message: str) -> None:

@@ -88,7 +88,7 @@ def test_every_rotation_is_taken_and_what_is_none_refused(numbers: list[float]) 
         ({"rotation": "none"}, TypeError, "must be 3 rows of 3 numbers"),
         ({"rotation": ((1, 0, 0), (0, 1, 0), (0, 0, None))}, TypeError, "has None"),
         ({"rotation": ((1, 0, 0), (0, 1, 0), (0, 0, float("inf")))}, ValueError, "has inf"),
-        ({"sign": 0}, ValueError, "Mounting.sign = 0"),
+        ({"sign": 0}, ValueError, "sensor.sign = 0"),
         ({"bias": (1.0,)}, TypeError, "must be 6 numbers"),
         ({"retry": 0.0}, ValueError, r"sensor.retry = 0 s: must lie in \[0.001, 60\] s"),
         ({"gone": float("nan")}, ValueError, "sensor.gone = nan s"),

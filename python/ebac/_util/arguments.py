@@ -6,6 +6,7 @@ import difflib
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from errno import EISDIR, ENOENT
 from functools import wraps
+from math import inf
 from numbers import Integral, Real
 from operator import index
 from os import PathLike
@@ -138,6 +139,14 @@ def number(name: str, value: Any) -> float:
         return float(value)
     except OverflowError:
         raise ValueError(f"{name} = {str(value)[:10]}...: is too large for a number") from None
+
+
+def nearest_float(value: float) -> float:
+    """Return a number as a float; a whole number beyond all floats is infinite, as the core has it."""
+    try:
+        return float(value)
+    except OverflowError:
+        return inf if value > 0 else -inf
 
 
 def of_percent(value: float) -> str:

@@ -7,6 +7,8 @@ from dataclasses import dataclass
 from math import sqrt
 from typing import TypeAlias
 
+from ebac._util.arguments import nearest_float
+
 #: What a key of a profile may hold.
 Value: TypeAlias = float | int | bool | str
 
@@ -56,6 +58,8 @@ class Key:
 
     def show(self, value: object) -> str:
         """Return a value with the unit of this key."""
+        if isinstance(value, int) and abs(value) >= 10**20:
+            value = nearest_float(value)
         text = f"{value:g}" if isinstance(value, float) else f"{value!r}"
         return f"{text} {self.unit}".rstrip()
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from math import inf
 
 from ebac._core import SimulatedWire, TimedBus
-from ebac._util.arguments import whole
+from ebac._util.arguments import nearest_float, whole
 from ebac._util.plural import plural
 from ebac._util.wrong_calls import plain_constructor
 from ebac.drives.network import Network
@@ -128,8 +128,13 @@ def bus_timing(
         ("error_rate", error_rate, 0.0, 1.0),
     ):  # fmt: skip
         if not low <= value <= high:
-            raise ValueError(f"{name} = {value:g}: must lie in [{low:g}, {high:g}]")
+            unit = " s" if name == "dt" else ""
+            raise ValueError(
+                f"{name} = {nearest_float(value):g}{unit}: must lie in [{low:g}, {high:g}]{unit}"
+            )
     seed = whole("seed", seed)
+    if not 0 <= seed < 2**64:
+        raise ValueError(f"seed = {nearest_float(seed):g}: must lie in [0, 2**64 - 1]")
     ids = [node.id for node in network.nodes]
     if broken is not None and broken not in ids:
         raise ValueError(

@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from ebac._core import Link
+from ebac._util.arguments import nearest_float
 from ebac._util.child_processes import (
     Child,
     end,
@@ -98,7 +99,7 @@ def chain(
         Where a process does not start.
     """
     if not 1 <= seconds <= 3600:
-        raise ValueError(f"seconds = {seconds:g} s: must lie in [1, 3600] s")
+        raise ValueError(f"seconds = {nearest_float(seconds):g} s: must lie in [1, 3600] s")
     network = link_options(link or Link(delay=0.05))
     known = ["--give-up", str(give_up), "--json"]
     logs: dict[str, list[str]] = {"slave": [], "master": []}

@@ -9,14 +9,14 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, Self
 
 from ebac._core import BridgeParams, Device, Hand, Limits, Observer, RealTime, Timing, Wall
-from ebac._util.arguments import require, require_path
+from ebac._util.arguments import plain, require, require_path
 from ebac._util.foreign_worlds import refuse_python
 from ebac._util.text_file import read_text
 from ebac._util.wrong_calls import plain_constructor
 from ebac.drives.errors import ProfileError
 from ebac.drives.network import Network
 from ebac.drives.toml_positions import Source
-from ebac.hardware.configuration_fields import check_seconds
+from ebac.hardware.configuration_fields import BUS, RECORDING, RUN, check_seconds
 from ebac.hardware.law import designed
 from ebac.hardware.reading import needs_force, read
 from ebac.hardware.signs import Signs
@@ -111,7 +111,7 @@ class Configuration:
     Raises
     ------
     ValueError
-        For an observer without a force sensor, or where the device says that none is fitted.
+        For a number out of range, an observer without a force sensor, or where the device says that none is fitted.
     """
 
     name: str = "a configuration"
@@ -147,7 +147,11 @@ class Configuration:
     simulated_bus: Mapping[str, Any] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
-        """Refuse an observer without a force, and a world that a tick cannot wait for."""
+        """Refuse a number out of range, an observer without a force, and a world that a tick cannot wait for."""
+        for key in (*BUS, *RUN, *RECORDING):
+            value = plain(getattr(self, key.name))
+            if value is not None and (wrong := key.check(value)) is not None:
+                raise ValueError(f"Configuration.{wrong}")
         if self.observer:
             needs_force(self.sensor, self.device)
         refuse_python(self.environment)

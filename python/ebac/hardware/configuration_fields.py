@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from ebac._util.arguments import unknown
+from ebac._util.arguments import nearest_float, unknown
 from ebac.drives.profile_fields import Key
 from ebac.drives.toml_positions import Path, Source, dotted
 from ebac.hardware.tables import table
@@ -51,7 +51,7 @@ def check_seconds(seconds: float) -> None:
     ValueError
         Then.
     """
-    if (wrong := RUN[0].check(float(seconds))) is not None:
+    if (wrong := RUN[0].check(nearest_float(seconds))) is not None:
         raise ValueError(wrong)
 
 

@@ -6,6 +6,7 @@ import re
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
+from math import inf
 from typing import TYPE_CHECKING, Any, Self
 
 import numpy as np
@@ -63,7 +64,7 @@ class Order:
                 )
             parts[match["part"]][match["name"]] = _number(match["value"], word)
         at = _number(time, text) if words else -1.0
-        if not at >= 0:
+        if not 0 <= at < inf:
             raise ValueError(
                 f"--at {text!r}: must be a time of 0 s or more, then what changes, like '3 environment.stiffness=2e4'"
             )
@@ -96,11 +97,8 @@ class Order:
 
 def _number(text: str, whole: str) -> float | int:
     try:
-        return int(text)
-    except ValueError:
-        pass
-    try:
-        return float(text)
+        value = float(text)  # infinite for a whole number beyond all floats
+        return int(text) if value.is_integer() and text.lstrip("+-").isdigit() else value
     except ValueError:
         raise ValueError(f"--at {whole!r}: {text!r} is no number") from None
 

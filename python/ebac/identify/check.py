@@ -16,6 +16,7 @@ from typing import Any
 
 import numpy as np
 
+from ebac._util.cores import MOST_THREADS
 from ebac.identify.arm import fit_arm
 from ebac.identify.cases import Case, draw, draw_device, draw_sway
 from ebac.identify.device import fit_device
@@ -279,8 +280,8 @@ def check(
         raise ValueError(f"arms = {arms}: must be at least 1")
     if not 1 <= seconds <= 1000:
         raise ValueError(f"seconds = {seconds} s: must lie in [1, 1000] s")
-    if workers is not None and workers < 1:
-        raise ValueError(f"workers = {workers}: must be at least 1")
+    if workers is not None and not 1 <= workers <= MOST_THREADS:
+        raise ValueError(f"workers = {workers}: must lie in [1, {MOST_THREADS}]")
     jobs = [(what, i, seed, seconds) for i in range(arms)]
     outcomes: list[Outcome] = []
     # Ctrl-C in a terminal goes to all processes: this one alone takes it, and ends the workers.

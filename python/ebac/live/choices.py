@@ -8,7 +8,7 @@ from typing import Any, Literal, Self
 
 from ebac import presets
 from ebac._core import Disc, Free, Limits, Wall
-from ebac._util.arguments import plain, unknown_name
+from ebac._util.arguments import nearest_float, plain, unknown_name
 from ebac.hardware import Configuration
 from ebac.laws import LAWS
 from ebac.scenario import Environment, Scenario
@@ -91,7 +91,7 @@ def _check(name: str, value: Any, names: dict[str, list[str]]) -> None:
             )
         if not low <= value <= high:
             raise ValueError(
-                f"{name} = {value:.10g} {unit}: must lie in [{low:g}, {high:g}] {unit}"
+                f"{name} = {nearest_float(value):.10g} {unit}: must lie in [{low:g}, {high:g}] {unit}"
             )
     else:
         raise unknown_name("setting", name[:40], [*names, "observer", *RANGES])

@@ -10,6 +10,7 @@ from typing import Any, Self
 import numpy as np
 
 from ebac._core import Corner, Elastic, Free, HuntCrossley, _World
+from ebac._util.arguments import nearest_float
 from ebac._util.surfaces import GRAZE
 from ebac.live.choices import RANGES
 from ebac.live.surface import distance_of
@@ -63,9 +64,11 @@ class DeviceLimits:
         """
         own = [0.0 if one == inf else one for one in surface_of(world)]
         for name, value in (("max_stiffness", stiffness), ("max_damping", damping)):
-            if value is not None and not 0 <= value < inf:
+            if value is not None and not 0 <= nearest_float(value) < inf:
                 unit = "N/m" if name == "max_stiffness" else "N s/m"
-                raise ValueError(f"{name} = {value} {unit}: must be a number of at least 0 {unit}")
+                raise ValueError(
+                    f"{name} = {nearest_float(value)} {unit}: must be a number of at least 0 {unit}"
+                )
         return cls(
             stiffness=own[0] if stiffness is None else float(stiffness),
             damping=own[1] if damping is None else float(damping),

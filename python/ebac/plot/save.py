@@ -19,7 +19,7 @@ from matplotlib.lines import Line2D
 from matplotlib.spines import Spine
 from matplotlib.text import Text
 
-from ebac._util.arguments import require
+from ebac._util.arguments import nearest_float, require
 from ebac._util.atomic_file import draft
 from ebac._util.figure_formats import FORMATS
 from ebac.plot.legends import LETTERS, fit_legends
@@ -125,7 +125,8 @@ def millimetres(width: str | float) -> float:
         For another word, or a width outside [40, 1000] mm.
     """
     try:
-        value = WIDTHS[width] if isinstance(width, str) and width in WIDTHS else float(width)
+        given = WIDTHS.get(width, width) if isinstance(width, str) else width
+        value = float(given) if isinstance(given, str) else nearest_float(given)
     except ValueError:
         known = ", ".join(f"{name} ({mm:g} mm)" for name, mm in WIDTHS.items())
         raise ValueError(f"width = {width!r}: must be {known} or millimetres") from None

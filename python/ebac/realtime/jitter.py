@@ -206,6 +206,7 @@ def beside_cyclictest(
         As `measure`.
     """
     wanted = options or _core.RealTime()
+    seconds = number("seconds", seconds)
     turns = max(1, ceil(seconds / _TURN)) if 0 < seconds <= LONGEST else 1
     own: list[Jitter] = []
     others: list[Cyclictest] = []

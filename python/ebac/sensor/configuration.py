@@ -10,7 +10,7 @@ from math import inf, isfinite
 from typing import Any, Self, TypeAlias
 
 from ebac import _core
-from ebac._util.arguments import plain, unknown
+from ebac._util.arguments import nearest_float, plain, unknown
 from ebac._util.wrong_calls import plain_constructor
 from ebac.sensor.status import BITS
 
@@ -100,14 +100,23 @@ class SensorConfig:
             value = getattr(self, name)
             if not isinstance(value, int) or isinstance(value, bool):
                 raise TypeError(f"sensor.{name} = {value!r}: must be a whole number")
-        if not 0 <= self.http_port <= 65535:
-            raise ValueError(f"sensor.http_port = {self.http_port}: must lie in [0, 65535]")
+        for name, low in (("port", 1), ("http_port", 0)):
+            if not low <= getattr(self, name) <= 65535:
+                raise ValueError(
+                    f"sensor.{name} = {getattr(self, name)}: must lie in [{low}, 65535]"
+                )
+        if self.sign not in (-1, 1):
+            raise ValueError(
+                f"sensor.sign = {self.sign}: must be 1 (force of the hand on the handle) or -1"
+            )
         if self.model not in MODELS:
             raise ValueError(unknown(f"sensor.model = {self.model!r}", self.model, MODELS))
         rows = numbers("rotation", self.rotation, 3, inner=3)
         object.__setattr__(self, "rotation", rows)
         object.__setattr__(self, "bias", numbers("bias", self.bias, 6))
-        _core._check_sensor(self.port, self.retry, self.gone, self._flat(), self.sign)
+        _core._check_sensor(
+            self.port, nearest_float(self.retry), nearest_float(self.gone), self._flat(), self.sign
+        )
         self._scale()
 
     def replace(self, **changes: Any) -> Self:

@@ -8,7 +8,7 @@ from functools import partial
 from typing import Any
 
 from ebac._util import formatting
-from ebac._util.arguments import number, require, whole
+from ebac._util.arguments import nearest_float, number, require, whole
 from ebac._util.cores import thread_count
 from ebac._util.progress import Progress
 from ebac._util.sequences import several
@@ -234,4 +234,6 @@ def _check(**numbers: tuple[float, float, float]) -> None:
         named = f"worst: {name}"
         if not low <= (whole if name in WHOLE else number)(named, value) <= high:
             unit = {"pull": " N", "pull_rate": " N/s", "seconds": " s"}.get(name, "")
-            raise ValueError(f"{named} = {value:g}{unit}: must lie in [{low:g}, {high:g}]{unit}")
+            raise ValueError(
+                f"{named} = {nearest_float(value):g}{unit}: must lie in [{low:g}, {high:g}]{unit}"
+            )

@@ -13,6 +13,7 @@ from ebac._util.arrays import Values
 from ebac.identify.cases import Case, draw
 from ebac.identify.gains.gains import GainsResult, fit_gains
 from ebac.identify.gains.press_trials import Presses, run_presses
+from ebac.identify.gains.search import MOST_EVALUATIONS
 from ebac.identify.gains.trial import Candidate, broken
 from ebac.identify.loop import LoopModel, fit_loop
 from ebac.identify.parameters import HAND
@@ -118,8 +119,8 @@ def check_gains(
 
     if logs < 1:
         raise ValueError(f"logs = {logs}: must be at least 1")
-    if evaluations < 1:
-        raise ValueError(f"evaluations = {evaluations}: must be at least 1")
+    if not 1 <= evaluations <= MOST_EVALUATIONS:
+        raise ValueError(f"evaluations = {evaluations}: must lie in [1, {MOST_EVALUATIONS}]")
     out: list[GainsCase | Refused] = []
     done = 0
     for number in count():

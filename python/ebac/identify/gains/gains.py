@@ -7,9 +7,9 @@ from dataclasses import dataclass
 from typing import Any
 
 from ebac._core import Hand, Linear
-from ebac._util.arguments import require
+from ebac._util.arguments import nearest_float, require
 from ebac.identify.gains.press_trials import arms_around, force_loop_laws, noise_gain
-from ebac.identify.gains.search import RESOLVED, GainsSearch
+from ebac.identify.gains.search import MOST_EVALUATIONS, RESOLVED, GainsSearch
 from ebac.identify.gains.trial import Candidate, Limits, allowances
 from ebac.identify.loop import DEPTH, LoopModel
 from ebac.laws import Variant, design
@@ -194,9 +194,9 @@ def fit_gains(
             f"law {law!r}: has no force loop of eq. (2); those that have: {', '.join(known)}"
         )
     if not 0 <= vary <= 3:
-        raise ValueError(f"vary = {vary:g}: must lie in [0, 3]")
-    if evaluations < 1:
-        raise ValueError(f"evaluations = {evaluations}: must be at least 1")
+        raise ValueError(f"vary = {nearest_float(vary):g}: must lie in [0, 3]")
+    if not 1 <= evaluations <= MOST_EVALUATIONS:
+        raise ValueError(f"evaluations = {evaluations}: must lie in [1, {MOST_EVALUATIONS}]")
     device = loop.device
     if not device.sensor.fitted:
         raise ValueError(f"device.sensor.fitted = False: {NO_SENSOR}")

@@ -25,6 +25,8 @@ LARGEST = {"kp": 2.0, "kd": 0.01}
 LOOKS = (0.0, 0.25, 0.5, 0.75, 0.95)
 #: Where the default gains break a constraint, shares of them down to the first that keeps all.
 SHARES = (0.9, 0.8, 0.7, 0.6, 0.5, 0.4, 0.3, 0.2, 0.1)
+#: Most evaluations of COBYLA that can be asked for.
+MOST_EVALUATIONS = 10**7
 #: How finely COBYLA searches, as a share of the root of the largest gains.
 RESOLVED = 5e-3
 #: COBYLA starts from the default gains or what is left of them, and from this many of the best looks.

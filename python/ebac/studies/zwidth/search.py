@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ebac._core import LinearLoop, Recorded, Timing, Wall
-from ebac._util.arguments import require, whole
+from ebac._util.arguments import number, require, whole
 from ebac._util.arrays import Values
 from ebac._util.sequences import several, several_numbers
 from ebac._util.wrong_calls import plain_function
@@ -34,6 +34,8 @@ ROUNDS = 4
 SHOWN_SHARE = 0.5
 #: Most random hands of a family.
 MOST_HANDS = 1000
+#: Most walls of a ladder.
+MOST_RUNGS = 10_000
 
 Flags = NDArray[np.bool_]
 Point = tuple[Timing, float]
@@ -267,9 +269,9 @@ def _check(
             f"zwidth: least_stiffness = {least} N/m, most_stiffness = {most} N/m: must be "
             "0 < least_stiffness < most_stiffness <= 1e7 N/m"
         )
-    if whole("zwidth: rungs", rungs) < 2:
-        raise ValueError(f"zwidth: rungs = {rungs}: must be at least 2")
-    if not epsilon >= 0:
+    if not 2 <= whole("zwidth: rungs", rungs) <= MOST_RUNGS:
+        raise ValueError(f"zwidth: rungs = {rungs}: must lie in [2, {MOST_RUNGS}]")
+    if not number("zwidth: epsilon", epsilon) >= 0:
         raise ValueError(f"zwidth: epsilon = {epsilon} J: must be at least 0")
     if not 0 <= whole("zwidth: hands", hands) <= MOST_HANDS:
         raise ValueError(f"zwidth: hands = {hands}: must lie in [0, {MOST_HANDS}]")
