@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import dataclasses
-import warnings
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Literal, Self, TypeAlias
 
 from ebac._core import Corner, Device, Disc, Free, Hand, Observer, Setup, Timing, Wall, _World
 from ebac._util.arguments import keywords_only, refuse_unknown, require, require_file, require_path
+from ebac._util.at_user import warn
 from ebac._util.atomic_file import write_text
 from ebac._util.copying import refuse_uncopyable
 from ebac._util.misplaced import Misplaced, misplaced
@@ -252,5 +252,5 @@ def scenario_of_log(text: str) -> Scenario | None:
     try:
         return Scenario.from_toml(text)
     except (ValueError, OSError, ImportError) as error:
-        warnings.warn(f"the scenario in the log is not used: {error}", stacklevel=2)
+        warn(f"the scenario in the log is not used: {error}")
         return None

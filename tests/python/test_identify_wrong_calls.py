@@ -1,6 +1,7 @@
 """Wrong calls of `ebac.identify` are refused with the thing, its value, its range; none is taken in silence."""
 
 import json
+import re
 import shutil
 from collections.abc import Callable
 from dataclasses import replace
@@ -100,6 +101,29 @@ def write(path: Path, *, mark: str = ",", rows: int = ROWS) -> Path:
 def test_an_unknown_option_of_a_file_is_refused_with_the_nearest() -> None:
     with pytest.raises(TypeError, match="load has no parameter 'unit', did you mean 'units'"):
         identify.load("press.csv", unit="mm")  # type: ignore[call-arg]
+
+
+@pytest.mark.parametrize(
+    ("call", "message"),
+    [
+        (lambda f: f.fit_arm(LOG, fre=[]), "ebac.identify.fit_arm has no parameter 'fre', did you mean 'free'"),
+        (lambda f: f.fit_loop(LOG, fre=[]), "fit_loop has no parameter 'fre', did you mean 'free'"),
+        (lambda f: f.fit_device(LOG, devices=1), "ebac.identify.fit_device has no parameter 'devices'"),
+        (lambda f: f.fit_gains(None, evaluation=1), "fit_gains has no parameter 'evaluation', did you mean 'evaluatio"),
+        (lambda f: f.force_scale(LOG, frictions=1), "ebac.identify.force_scale has no parameter 'frictions'"),
+        (lambda f: f.frequency_response(LOG, stifness=1), "has no parameter 'stifness', did you mean 'stiffness'"),
+        (lambda f: f.check_log(LOG, targts=1), "ebac.identify.check_log has no parameter 'targts', did you mean 'tar"),
+        (lambda f: f.excitation.chirp(hgh=1), "ebac.identify.excitation.chirp has no parameter 'hgh', did you mean"),
+        (lambda f: f.Target.tapping(1.0, second=1), "Target.tapping has no parameter 'second', did you mean 'second"),
+        (lambda f: f.Target.tapping(1.0), "Target.tapping needs seconds"),
+        (lambda f: f.Recording.from_trace(None, axes=1), "Recording.from_trace has no parameter 'axes', did you mean"),
+    ],
+)  # fmt: skip
+def test_an_unknown_keyword_is_refused_with_the_nearest(
+    call: Callable[[Any], Any], message: str
+) -> None:
+    with pytest.raises(TypeError, match=re.escape(message)):
+        call(identify)
 
 
 @pytest.mark.parametrize(

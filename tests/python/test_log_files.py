@@ -295,8 +295,10 @@ def test_every_reader_of_csv_warns_of_a_last_line_without_an_end(tmp_path: Path)
         path.write_text(text)
         reader(path)
         path.write_text(text[:-1])
-        with pytest.warns(UserWarning, match=r"log\.csv: its last line has no end, .* check its"):
+        cut = r"log\.csv: its last line has no end, .* check its"
+        with pytest.warns(UserWarning, match=cut) as warned:
             reader(path)
+        assert warned[0].filename == __file__
         path.write_text(text + "# the end")
         reader(path)
 

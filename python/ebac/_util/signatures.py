@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import inspect
 import re
+import sys
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from operator import index
@@ -57,7 +58,7 @@ def python_sentence(
     kinds = inspect.Parameter
     label = called.__name__ if isinstance(called, type) else _public_name(called)
     parameters = list(inspect.signature(called).parameters.values())
-    if parameters and parameters[0].name == "self" and not isinstance(called, type):
+    if parameters and parameters[0].name in ("self", "cls") and not isinstance(called, type):
         label, parameters, values = called.__qualname__, parameters[1:], values[1:]
     if given and parameters[0].kind is kinds.VAR_POSITIONAL:
         return f"{label} takes its {parameters[0].name} in order, not by name: {next(iter(given))}"
@@ -69,12 +70,14 @@ def python_sentence(
 
 
 def _public_name(function: Callable[..., Any]) -> str:
-    """Return how people write a public function: ebac.study, ebac.identify.load."""
+    """Return how people write a public function: ebac.study, ebac.identify.load, ebac.identify.excitation.chirp."""
     import ebac
 
     name = function.__name__
     public = name in dir(ebac) and inspect.unwrap(getattr(ebac, name)) is inspect.unwrap(function)
     room = "ebac" if public else ".".join(function.__module__.split(".")[:2])
+    if not hasattr(sys.modules[room], name):
+        room = function.__module__
     return f"{room}.{name}"
 
 

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-import warnings
 from collections import Counter
 from itertools import chain
 from os import SEEK_END
 from pathlib import Path
 from typing import TypeVar
+
+from ebac._util.at_user import warn
 
 Line = TypeVar("Line", str, list[str])  # as text, or in cells
 
@@ -47,9 +48,7 @@ def check_end(path: str | Path) -> None:
     )
     if ours:
         raise ValueError(f"{found}; delete the last line, or end it if it is whole")
-    warnings.warn(
-        f"{path}: {found}; check its last number, and end that line if it is whole", stacklevel=3
-    )
+    warn(f"{path}: {found}; check its last number, and end that line if it is whole")
 
 
 def read_text(path: str | Path) -> str:

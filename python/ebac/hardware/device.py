@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import atexit
 import tempfile
-import warnings
 import weakref
 from collections.abc import Callable
 from contextlib import ExitStack
@@ -13,6 +12,7 @@ from pathlib import Path
 from types import TracebackType
 from typing import TYPE_CHECKING, Any, Self
 
+from ebac._util.at_user import warn
 from ebac._util.exception_notes import noted_on
 from ebac._util.foreign_worlds import foreign
 from ebac._util.parent import parent_gone
@@ -118,7 +118,7 @@ class OpenDevice:
         real = replace(network, nodes=drive_setup.nodes_of(configuration, simulate=False))
         loaded = configuration.interface == "socketcan"  # a bus inside this process has no bit rate
         if loaded and (warning := real.check_load()) is not None:
-            warnings.warn(warning, stacklevel=2)
+            warn(warning)
         with ExitStack() as stack:
             self.interrupts = stack.enter_context(Interrupts())
             self.backend: Backend = stack.enter_context(

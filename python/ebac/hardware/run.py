@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import io
 import time
-import warnings
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from types import TracebackType
 from typing import TYPE_CHECKING
 
 from ebac import _core
+from ebac._util.at_user import warn
 from ebac._util.exception_notes import noted_on
 from ebac._util.foreign_worlds import foreign
 from ebac._util.wrong_calls import plain_constructor
@@ -150,7 +150,7 @@ class Run(RunChanges):
             raise fault
         world = foreign(self._parameters.world)
         if world is not None and (remark := world.remark()):
-            warnings.warn(remark, stacklevel=2)
+            warn(remark)
         return trace
 
     def end(self) -> None:

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from ebac._util.arguments import number, require, whole
 from ebac._util.sequences import several
+from ebac._util.wrong_calls import plain_function
 from ebac.identify.fit import Fitted
 from ebac.identify.informativeness import FASTEST
 from ebac.identify.intervals import Z95
@@ -33,6 +34,7 @@ from ebac.identify.whole_ticks import fitted_over_ticks
 AGAIN = 4
 
 
+@plain_function
 def fit_arm(
     recordings: Recording | Sequence[Recording],
     targets: Target | Sequence[Target] | None = None,

@@ -8,6 +8,7 @@ from time import perf_counter
 import numpy as np
 from numpy.typing import NDArray
 
+from ebac._util.wrong_calls import plain_function
 from ebac.identify.device_problem import (
     FITTED,
     Drive,
@@ -37,6 +38,7 @@ FEWEST = 4
 LESS = 1 / 3
 
 
+@plain_function
 def fit_device(recording: Recording, *, current_lag: float | None = None) -> DeviceResult:
     """Identify the device of one axis from motion and forces.
 

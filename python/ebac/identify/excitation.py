@@ -7,6 +7,7 @@ import numpy as np
 from ebac._core import Recorded
 from ebac._util.arguments import number, whole
 from ebac._util.arrays import Values
+from ebac._util.wrong_calls import plain_function
 
 
 def _times(amplitude: float, seconds: float, dt: float) -> Values:
@@ -19,6 +20,7 @@ def _times(amplitude: float, seconds: float, dt: float) -> Values:
     return np.asarray(dt * np.arange(round(seconds / dt) + 1))
 
 
+@plain_function
 def steps(
     amplitude: float, *, seconds: float = 10.0, hold: float = 1.0, dt: float = 1e-3
 ) -> tuple[Values, Values]:
@@ -30,6 +32,7 @@ def steps(
     return t, amplitude * level
 
 
+@plain_function
 def tapping(
     amplitude: float, frequency: float, *, seconds: float = 10.0, dt: float = 1e-3
 ) -> tuple[Values, Values]:
@@ -39,6 +42,7 @@ def tapping(
     return t, amplitude * ((frequency * t) % 1 < 0.5).astype(float)
 
 
+@plain_function
 def chirp(
     amplitude: float,
     *,
@@ -54,6 +58,7 @@ def chirp(
     return t, amplitude * np.sin(2 * np.pi * low / rate * np.expm1(rate * t))
 
 
+@plain_function
 def multisine(
     amplitude: float,
     *,

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from ebac._util.arguments import number
 from ebac._util.arrays import Values
+from ebac._util.wrong_calls import plain_function
 from ebac.identify.intervals import Z95, newey_west
 from ebac.identify.missing import left_for
 from ebac.identify.recording import Recording
@@ -82,6 +83,7 @@ class ForceScale:
         )
 
 
+@plain_function
 def force_scale(
     recording: Recording, *, mass: float | None = None, damping: float | None = None
 ) -> ForceScale:

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from ebac._util.arguments import named, unknown
 from ebac._util.arrays import Values
 from ebac._util.sequences import several
+from ebac._util.wrong_calls import plain_function
 from ebac.identify.guess import regression, solve
 from ebac.identify.intervals import Z95
 from ebac.identify.parameters import HAND, Parameters, kind
@@ -94,6 +95,7 @@ class LogCheck:
         ]
 
 
+@plain_function
 def check_log(
     recording: Recording, target: Target | None = None, *, ask: Sequence[str] = ASKED
 ) -> LogCheck:

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from ebac._core import Device, Hand, Step, Timing, Wall
 from ebac._util.arguments import number, refuse_unknown, require
-from ebac._util.wrong_calls import plain_constructor
+from ebac._util.wrong_calls import plain_constructor, plain_function
 from ebac.identify.arm import fit_arm
 from ebac.identify.device import fit_device
 from ebac.identify.device_result import DeviceResult
@@ -74,6 +74,7 @@ class LoopModel:
         return "\n".join([*lines, *(f"  {text}" for text in self.remarks)])
 
 
+@plain_function
 def fit_loop(
     recordings: Recording | Sequence[Recording],
     targets: Target | Sequence[Target] | None = None,

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from ebac._util.arguments import number, require, shown, unknown
 from ebac._util.plural import plural
-from ebac._util.wrong_calls import plain_constructor
+from ebac._util.wrong_calls import plain_constructor, plain_function
 from ebac.identify.of_trace import signals_of, trace_facts
 from ebac.identify.quantisation import count_of
 from ebac.identify.times import not_rising
@@ -258,6 +258,7 @@ class Recording:
         return replace(self, **changes, remarks=remarks)
 
     @classmethod
+    @plain_function
     def from_trace(cls, trace: Trace, *, axis: int = 0, name: str = "trace") -> Self:
         """Return the recording of one axis of a `Trace`; count and lag are taken from its scenario, if it has one."""
         from ebac.trace import Trace

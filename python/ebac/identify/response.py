@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from ebac._util.arguments import number
 from ebac._util.arrays import Values
 from ebac._util.sequences import several_numbers
+from ebac._util.wrong_calls import plain_function
 from ebac.identify.missing import force_of_hand
 from ebac.identify.recording import Recording
 from ebac.identify.recording_list import require_recordings
@@ -149,6 +150,7 @@ def densities(recording: Recording, target: Target, levels: Values) -> Densities
     )
 
 
+@plain_function
 def frequency_response(
     recording: Recording,
     target: Target | None = None,

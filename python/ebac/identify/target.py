@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from ebac._core import Hand, MinimumJerk, Recorded, Sine, Step, Tapping
 from ebac._util.arguments import number, require, whole
-from ebac._util.wrong_calls import plain_constructor
+from ebac._util.wrong_calls import plain_constructor, plain_function
 from ebac.identify.recording import Recording
 
 #: More than this of tapping are no recording, but a wrong unit.
@@ -92,6 +92,7 @@ class Target:
         return cls(switches=tuple(at), segments=tuple(range(len(at) + 1)))
 
     @classmethod
+    @plain_function
     def tapping(cls, frequency: float, seconds: float, start: float = 0.0) -> Target:
         """Return a target with level 0 in the first half of each period and level 1 in the second, like `Tapping`.
 
@@ -132,11 +133,13 @@ class Target:
         return cls(switches=tuple(at), segments=tuple((first + k) % 2 for k in range(len(at) + 1)))
 
     @classmethod
+    @plain_function
     def following(cls, path: NDArray[np.float64]) -> Target:
         """Return a target along a path that is known except for its start, one value [m] per row."""
         return cls(path=np.asarray(path, dtype=float))
 
     @classmethod
+    @plain_function
     def recorded(cls, recording: Recording) -> Target:
         """Return the target that a recording has, as a column or in its scenario; else one that stays in one place."""
         if recording.target is not None:
@@ -144,6 +147,7 @@ class Target:
         return cls.held() if recording.path is None else cls.along(recording.path, recording.t)
 
     @classmethod
+    @plain_function
     def of(cls, hand: Hand, t: NDArray[np.float64], axis: int = 0) -> Target:
         """Return what an experimenter knows of a simulated hand's target along an axis: its times, not its levels."""
         require(hand, Hand, "Target.of", "a Hand")
@@ -152,6 +156,7 @@ class Target:
         return cls.along(hand.path[axis], t)
 
     @classmethod
+    @plain_function
     def along(cls, path: Path, t: NDArray[np.float64]) -> Target:
         """Return the target that follows the path of a hand along one axis."""
         start, end = float(t[0]), float(t[-1])

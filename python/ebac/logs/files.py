@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ebac._util.arguments import require_file, require_path
+from ebac._util.at_user import warn
 from ebac._util.atomic_file import draft
 from ebac._util.plural import plural
 from ebac._util.progress import Progress
@@ -163,13 +163,12 @@ def load(
     if kind == ".mcap":
         log = read(path, start=start, stop=stop, progress=progress)
         if log.condition.damaged:
-            warnings.warn(f"{path}: {log.condition.damage}", stacklevel=2)
+            warn(f"{path}: {log.condition.damage}")
         if not log.condition.complete:
             rows = plural(len(log.trace), "whole row")
-            warnings.warn(
+            warn(
                 f"{path}: was cut, or is still being written: its end is missing; {rows} read. "
-                f"`ebac log repair {path}` makes a complete log of a cut one",
-                stacklevel=2,
+                f"`ebac log repair {path}` makes a complete log of a cut one"
             )
         return log.trace
     readers: dict[str, Callable[[Path], Trace]] = {

@@ -9,7 +9,6 @@ import io
 import json
 import threading
 import time
-import warnings
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from types import TracebackType
@@ -17,6 +16,7 @@ from typing import TYPE_CHECKING, Any, Self
 
 import numpy as np
 
+from ebac._util.at_user import warn
 from ebac._util.plural import plural
 from ebac._util.wrong_calls import plain_constructor
 from ebac.logs.about import About
@@ -214,10 +214,9 @@ class Recorder:
                 str(self.path),
             ) from self.error
         if self.lost:
-            warnings.warn(
+            warn(
                 f"{self.path}: {plural(self.lost, 'row')} {'was' if self.lost == 1 else 'were'} lost, the recorder "
-                "came too late; the log contains where. Give the loop a longer ring",
-                stacklevel=2,
+                "came too late; the log contains where. Give the loop a longer ring"
             )
 
     def _run(self) -> None:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import dataclasses
-import warnings
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from math import inf, isfinite
@@ -11,6 +10,7 @@ from typing import Any, Self, TypeAlias
 
 from ebac import _core
 from ebac._util.arguments import nearest_float, plain, unknown
+from ebac._util.at_user import warn
 from ebac._util.wrong_calls import plain_constructor
 from ebac.sensor.status import BITS
 
@@ -167,10 +167,9 @@ class SensorConfig:
         try:
             page = read_page(self.host, http_port=self.http_port, timeout=timeout)
         except SensorError as error:
-            warnings.warn(
+            warn(
                 f"the counts of the force sensor were not compared with its own page: {error}; "
-                "sensor.http_port = 0 for a sensor without a page",
-                stacklevel=2,
+                "sensor.http_port = 0 for a sensor without a page"
             )
             return
         for name in ("counts_per_force", "counts_per_torque"):

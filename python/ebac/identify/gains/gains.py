@@ -8,6 +8,7 @@ from typing import Any
 
 from ebac._core import Hand, Linear
 from ebac._util.arguments import nearest_float, require
+from ebac._util.wrong_calls import plain_function
 from ebac.identify.gains.press_trials import arms_around, force_loop_laws, noise_gain
 from ebac.identify.gains.search import MOST_EVALUATIONS, RESOLVED, GainsSearch
 from ebac.identify.gains.trial import Candidate, Limits, allowances
@@ -134,6 +135,7 @@ def gains_to_copy(result: GainsResult) -> tuple[float, float]:
     return kp, kd
 
 
+@plain_function
 def fit_gains(
     loop: LoopModel,
     law: str = "tca-damped",
