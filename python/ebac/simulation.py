@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import copyreg
-import warnings
 from typing import Any
 
 import numpy as np
@@ -11,6 +10,7 @@ import numpy as np
 from ebac import _core
 from ebac._util import remarks
 from ebac._util.arguments import number, require
+from ebac._util.at_user import warn
 from ebac._util.doubts.scenario import doubts as doubts_before
 from ebac._util.fault_remedies import REMEDIES
 from ebac._util.foreign_worlds import foreign
@@ -221,7 +221,7 @@ def simulate(
         error = _hand_error(setup)
         raise LoopFault(fault, trace, error, own, allowed, of_law) from error or own or of_law
     if mine is not None and (remark := mine.remark()):
-        warnings.warn(remark, stacklevel=2)
+        warn(remark)
     if by_user:
         warn_of(trace.doubts())
     return trace
@@ -232,10 +232,10 @@ def hidden_by_pytest(failure: Any) -> bool:
     return isinstance(failure.value, (LoopFault, KeyError, TypeError, ValueError))
 
 
-def warn_of(doubts: tuple[str, ...], *, wrapped: bool = False) -> None:
-    """Warn at the line that called the function which calls this one; `wrapped` is whether by a decorator."""
+def warn_of(doubts: tuple[str, ...]) -> None:
+    """Warn of each at the line outside the package that led here."""
     for text in doubts:
-        warnings.warn(text, DoubtWarning, stacklevel=4 if wrapped else 3)
+        warn(text, DoubtWarning)
 
 
 def _too_long(scenario: Scenario) -> str:
@@ -278,6 +278,6 @@ def on_bus(scenario: Scenario, through: str, bus: _core.TimedBus | None = None) 
         raise ValueError(f"through = {through!r}: must be 'can' or None")
     warning = _core._load_on_bus(scenario.device.axes, scenario.timing.dt, bus).check()
     if warning:
-        warnings.warn(warning, stacklevel=3)
+        warn(warning)
     drive = scenario.device.drive.replace(permille=True)
     return scenario.replace(device=scenario.device.replace(drive=drive))

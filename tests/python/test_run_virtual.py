@@ -364,6 +364,16 @@ def test_a_configuration_lists_its_doubts_and_its_simulation_warns_of_them() -> 
     assert caught[0].filename == __file__
 
 
+@pytest.mark.parametrize("opened", [ebac.Device.open, ebac.hardware.OpenDevice.open])
+def test_a_device_that_is_opened_warns_of_the_doubts_of_its_configuration(opened: Any) -> None:
+    """Before its drives are looked for: `simulate` and `ebac run` had them, real drives not."""
+    soft = Configuration.load(EXAMPLE).replace(environment=ebac.Wall(stiffness=5.0))
+    with pytest.warns(ebac.DoubtWarning) as caught, pytest.raises(ebac.drives.DriveError):
+        opened(soft.replace(channel="no-such-bus"))
+    assert [str(one.message) for one in caught] == list(soft.doubts())
+    assert caught[0].filename == __file__
+
+
 def test_drives_with_the_sync_period_of_another_rate_are_noted() -> None:
     known = Configuration.load(EXAMPLE)
     slower = known.replace(timing=known.timing.replace(dt=2e-3))

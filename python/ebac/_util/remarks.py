@@ -7,15 +7,16 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
 
+#: Its functions stand between a call and what was called.
+_DECORATORS = "ebac._util.wrong_calls"
 _silent: ContextVar[bool] = ContextVar("silent", default=False)
 
 
-def wanted(*, wrapped: bool = False) -> bool:
-    """Return whether a line outside the package called the function that asks: a study of many runs is no such line.
-
-    `wrapped` is whether that function stands behind a decorator.
-    """
-    name = sys._getframe(3 if wrapped else 2).f_globals.get("__name__", "")
+def wanted() -> bool:
+    """Return whether a line outside the package called the function that asks: a study of many runs is no such line."""
+    frame = sys._getframe(2)
+    while (name := frame.f_globals.get("__name__", "")) == _DECORATORS and frame.f_back is not None:
+        frame = frame.f_back
     return not (_silent.get() or name == "ebac" or name.startswith("ebac."))
 
 

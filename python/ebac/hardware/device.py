@@ -12,6 +12,7 @@ from pathlib import Path
 from types import TracebackType
 from typing import TYPE_CHECKING, Any, Self
 
+from ebac._util import remarks
 from ebac._util.at_user import warn
 from ebac._util.exception_notes import noted_on
 from ebac._util.foreign_worlds import foreign
@@ -183,9 +184,19 @@ class OpenDevice:
         detached: bool = False,
         beyond_rating: bool = False,
     ) -> Self:
-        """Open the device of a configuration or a file. Raises the errors of `Configuration.load` and the class."""
+        """Open the device of a configuration or a file. Raises the errors of `Configuration.load` and the class.
+
+        Warns
+        -----
+        DoubtWarning
+            For what `Configuration.doubts` lists, before anything is opened, and the warnings of the class.
+        """
         if not isinstance(configuration, Configuration):
             configuration = Configuration.load(configuration)
+        if remarks.wanted():
+            from ebac.simulation import warn_of
+
+            warn_of(configuration.doubts())
         return cls(configuration, simulate=simulate, detached=detached, beyond_rating=beyond_rating)
 
     def run(

@@ -98,8 +98,8 @@ def stiffest(
     walls = [wall_of(stiffness) for stiffness in ladder.tolist()]
     if why := no_ideal_rest(walls[0].scenarios(hands[:1], scenario)[0]):
         raise ValueError(f"stiffest: no hand can be judged: {why}; give another base")
-    if base is not None and remarks.wanted(wrapped=True):
-        warn_of(doubts(hands, scenario, ladder.tolist()), wrapped=True)
+    if base is not None and remarks.wanted():
+        warn_of(doubts(hands, scenario, ladder.tolist()))
     found = study(
         hands, list(LAWS.values()) if laws is None else laws, walls, base=scenario, seed=seed,
         threads=threads, executor=executor, out=out, resume=resume, progress=progress,

@@ -89,8 +89,8 @@ def study(
             "whose change sets it has it under every law",
             stacklevel=3,
         )
-    if base is not None and remarks.wanted(wrapped=True):
-        warn_of(doubts(population, base), wrapped=True)
+    if base is not None and remarks.wanted():
+        warn_of(doubts(population, base))
     if progress is not None:
         hands = sum(len(c.drives) or len(population) for c in chosen)
         progress(0, hands * len(named))  # the scenarios of many take seconds
