@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import copyreg
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -12,6 +13,7 @@ from ebac._util import remarks
 from ebac._util.arguments import number, require
 from ebac._util.at_user import warn
 from ebac._util.doubts.scenario import doubts as doubts_before
+from ebac._util.fault_of_drives import of_drives
 from ebac._util.fault_remedies import REMEDIES
 from ebac._util.foreign_worlds import foreign
 from ebac._util.kept_law import KeptLaw, law_error
@@ -64,6 +66,7 @@ class LoopFault(RuntimeError):
         world: BaseException | None = None,
         limits: _core.Limits | None = None,
         law: BaseException | None = None,
+        nodes: Sequence[int] = (),
     ) -> None:
         self.fault = fault
         self.trace = trace
@@ -83,7 +86,8 @@ class LoopFault(RuntimeError):
         elif limits is not None:
             cause += _beyond(fault, trace, row, limits)
         super().__init__(
-            f"fault {int(fault)} ({cause}) in tick {trace['tick'][row]}, t = {trace['t'][row]:.6g} s: "
+            f"fault {int(fault)} ({cause}){of_drives(fault, trace, row, nodes)} in tick {trace['tick'][row]}, t = "
+            f"{trace['t'][row]:.6g} s: "
             "the command was set to zero and the loop stopped; see .trace for the rows before it"
         )
 

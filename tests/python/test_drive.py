@@ -323,6 +323,11 @@ def test_a_fault_names_code_latched_names_and_emergencies(drive: drives.Drive) -
     assert caught.value.latched
 
 
+def test_where_no_command_leads_is_refused_by_the_node(drive: drives.Drive) -> None:
+    with pytest.raises(ValueError, match="node 1: no command leads from 'switch on disabled' to"):
+        drive.go(State.NOT_READY_TO_SWITCH_ON)
+
+
 def test_a_fault_goes_by_reset_only_when_its_cause_is_gone(drive: drives.Drive) -> None:
     fail(drive, OVER_VOLTAGE)
     drive.wait(lambda now: now is State.FAULT, "in fault", timeout=1)

@@ -169,6 +169,30 @@ def late_trace(fault: ebac.Fault) -> ebac.Trace:
     return trace
 
 
+@pytest.mark.parametrize(
+    ("fault", "column", "values", "words"),
+    [
+        (ebac.Fault.DRIVE_FAULT, "statusword", [0x1237, 0x1218], "axis 1 (node 2, statusword 0x1218)"),
+        (ebac.Fault.DRIVE_DISABLED, "statusword", [0x1240, 0x1237], "axis 0 (node 1, statusword 0x1240)"),
+        (ebac.Fault.DRIVE_EMERGENCY, "emergency", [0x2310, 0x3210],
+         "axis 0 (node 1, error code 0x2310) and axis 1 (node 2, error code 0x3210)"),
+        (ebac.Fault.DRIVE_SILENT, "age", [1, 20], "axis 1 (node 2, no process data for 20 ticks)"),
+        (ebac.Fault.HEARTBEAT_LOST, "heartbeat", [5, 0], "axis 1 (node 2, NMT state 0)"),
+        (ebac.Fault.HEARTBEAT_LOST, "heartbeat", [5, 5], ""),
+        (ebac.Fault.OVERRUNS, "emergency", [0x2310, 0], ""),
+    ],
+)  # fmt: skip
+def test_a_fault_of_a_drive_names_its_node(
+    fault: ebac.Fault, column: str, values: list[int], words: str
+) -> None:
+    trace = late_trace(fault)
+    shown = trace[f"bus.{column}"].copy()
+    shown[-1] = values
+    error = loop_fault(trace.with_column(f"bus.{column}", shown), (1, 2))
+    cause = f"fault {int(fault)} ({fault.name.lower().replace('_', ' ')})"
+    assert str(error).startswith(f"{cause}{words and f' of {words}'} in tick ")
+
+
 class Ended(Run):
     def __init__(self, trace: ebac.Trace) -> None:
         self.rows = trace

@@ -152,6 +152,7 @@ def test_a_drive_off_the_bus_ends_the_run_without_force(known: Configuration, no
     assert caught.value.fault is ebac.Fault.DRIVE_SILENT
     first = int((trace["fault"] != 0).argmax())
     assert 500 < first <= 500 + SILENT + 3
+    assert f"fault 9 (drive silent) of axis {node - 1} (no process data for " in str(caught.value)
     assert (trace["current"][first:] == 0).all()
     assert (trace["bus.target_permille"][first + 1 :] == 0).all()
 

@@ -106,7 +106,10 @@ class Drive(BusNode):
                 self._step(state, goal, left)
 
     def _step(self, state: State, goal: State, left: float) -> None:
-        commands = path(state, goal)
+        try:
+            commands = path(state, goal)
+        except ValueError as error:
+            raise ValueError(f"node {self.node}: {error}") from None
         if commands:
             self.command(commands[0])
         self.wait(lambda now: now is not state, repr(goal.value), timeout=left)

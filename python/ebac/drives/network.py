@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -234,7 +234,8 @@ def _nodes(source: Source) -> tuple[Node, ...]:
         name = table.get("name", "")
         if not isinstance(name, str):
             raise source.refuse(("node", i, "name"), f"node {found}: name = {name!r}: must be text")
-        profile = read_profile(source, base=_base(source, i, table), at=("node", i))
+        of_node = replace(source, of=f"node {found}: ")
+        profile = read_profile(of_node, base=_base(source, i, table), at=("node", i))
         sheet = _sheet(source, i, table) if "eds" in table else None
         nodes.append(Node(id=found, name=name, profile=profile, sheet=sheet))
     for i, node in enumerate(nodes):

@@ -22,7 +22,7 @@ from ebac.drives.pdo import Pdo, read_pdo, sync_period
 from ebac.drives.profile_fields import BY_NAME, KEYS, RULES, Value
 from ebac.drives.setting import Setting
 from ebac.drives.toml_positions import Path as Where
-from ebac.drives.toml_positions import Source, dotted
+from ebac.drives.toml_positions import Source
 
 #: Tables of a profile that hold keys; `pdo` and `about` are read apart.
 TABLES = tuple(dict.fromkeys(key.name.partition(".")[0] for key in KEYS))
@@ -271,15 +271,14 @@ def _values(source: Source, table: Mapping[str, Any], at: Where) -> Iterator[tup
         if title in apart:
             continue
         if title not in TABLES:
-            here = dotted((*at, title))
-            raise source.refuse((*at, title), unknown(here, title, [*apart, *TABLES]))
+            raise source.refuse((*at, title), unknown(title, title, [*apart, *TABLES]))
         if not isinstance(item, Mapping):
-            raise source.refuse((*at, title), f"{dotted((*at, title))} = {item!r}: must be a table")
+            raise source.refuse((*at, title), f"{title} = {item!r}: must be a table")
         names = [key.name.partition(".")[2] for key in KEYS if key.name.startswith(f"{title}.")]
         for name, value in item.items():
             path = (*at, title, name)
             if name not in names:
-                raise source.refuse(path, unknown(dotted(path), name, names))
+                raise source.refuse(path, unknown(f"{title}.{name}", name, names))
             key = BY_NAME[f"{title}.{name}"]
             if (wrong := key.check(value)) is not None:
                 raise source.refuse(path, wrong)

@@ -19,10 +19,11 @@ __all__ = [
 
 @dataclass(frozen=True, kw_only=True)
 class Source:
-    """A TOML document and its name."""
+    """A TOML document and its name; `of` begins what is refused, as "node 2: "."""
 
     name: str
     text: str
+    of: str = ""
     table: dict[str, Any] = field(init=False, compare=False)
 
     def __post_init__(self) -> None:
@@ -35,4 +36,4 @@ class Source:
 
     def refuse(self, path: Path, what: str) -> ProfileError:
         """Return the error for what stands at `path`."""
-        return ProfileError(placed(self.name, self.text, path, what))
+        return ProfileError(placed(self.name, self.text, path, f"{self.of}{what}"))

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from ebac._core import Fault
 from ebac.simulation import LoopFault
 from ebac.trace import Trace
@@ -27,12 +29,15 @@ PATIENT = {
 BY_MOTION = frozenset({Fault.ENCODER_JUMP, Fault.OVERSPEED})
 
 
-def loop_fault(trace: Trace) -> LoopFault | None:
-    """Return the error of a loop that ended by a fault, with a note where it was late; None without a fault."""
+def loop_fault(trace: Trace, nodes: Sequence[int] = ()) -> LoopFault | None:
+    """Return the error of a loop that ended by a fault, with a note where it was late; None without a fault.
+
+    `nodes` are the node ids of the drives by axis, where they are known.
+    """
     fault = Fault(int(trace["fault"][-1])) if len(trace) else Fault.NONE
     if fault is Fault.NONE:
         return None
-    error = LoopFault(fault, trace)
+    error = LoopFault(fault, trace, nodes=nodes)
     if late := lateness_of(fault, trace):
         error.add_note(f"the loop {late}; {remedy(fault)}")
     return error

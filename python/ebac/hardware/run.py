@@ -40,6 +40,8 @@ class Run(RunChanges):
     parent. In each case the force goes to zero and the drives have no power afterwards.
     """
 
+    _nodes: Sequence[int] = ()  # of the drives, by axis
+
     def __init__(
         self,
         running: _core.Running,
@@ -66,6 +68,7 @@ class Run(RunChanges):
         interrupts.hurry = lambda: running.stop(at_once=True)
         self._power_off = power_off
         self._positions = tuple(positions)
+        self._nodes = [one.node for one in self._positions]
         self._grants = [*running.grants, *grants]
         self._parent = None if detached else OfParent(self._parent_is_gone)
 
@@ -146,7 +149,7 @@ class Run(RunChanges):
         """
         self.end()
         trace = self.trace()
-        if fault := loop_fault(trace):
+        if fault := loop_fault(trace, self._nodes):
             raise fault
         world = foreign(self._parameters.world)
         if world is not None and (remark := world.remark()):
@@ -196,7 +199,7 @@ class Run(RunChanges):
             self._interrupts.forget()
             fault = None
             if self._running.state is _core.LoopState.FAULT:
-                fault = loop_fault(self.trace())
+                fault = loop_fault(self.trace(), self._nodes)
                 failures[0].add_note(f"before that: {fault}")
             raise failures[0] from fault
         self._interrupts.settled()
