@@ -261,6 +261,21 @@ def test_whatever_goes_wrong_beside_it_the_dead_man_key_is_watched(tmp_path: Pat
 
 
 @pytest.mark.slow
+def test_a_scenario_is_saved_whole_or_not_at_all(
+    session: Session, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """What failed on the way left an empty file."""
+
+    def fails(*_: object, **more: object) -> str:
+        raise OSError("no mesh")
+
+    monkeypatch.setattr(ebac.Scenario, "to_toml", fails)
+    with pytest.raises(OSError, match="no mesh"):
+        session.save()
+    assert list(session.folder.iterdir()) == []
+    assert session.kept == []
+
+
 def test_frames_have_rows_words_and_history(session: Session) -> None:
     frames = Frames(session)
     assert frames.frame()["verdict"]["head"] == "At rest"

@@ -6,6 +6,7 @@ import threading
 from datetime import UTC, datetime
 from pathlib import Path
 
+from ebac._util.atomic_file import write_text
 from ebac.live.session_parts import SessionParts
 
 
@@ -43,10 +44,8 @@ class SessionFiles(SessionParts):
         """Write the scenario to a TOML file, named by the time; return its path."""
         with self._lock:
             path = self._new(".toml")
-            with path.open("x", encoding="utf-8") as file:
-                file.write(
-                    f"# law: {self.choices.law}\n{self.scenario.to_toml(folder=path.parent)}"
-                )
+            text = self.scenario.to_toml(folder=path.parent)
+            write_text(path, f"# law: {self.choices.law}\n{text}")
             self.kept.append(path)
             return path
 
