@@ -260,7 +260,6 @@ def test_whatever_goes_wrong_beside_it_the_dead_man_key_is_watched(tmp_path: Pat
             assert session._watch.is_alive()
 
 
-@pytest.mark.slow
 def test_a_scenario_is_saved_whole_or_not_at_all(
     session: Session, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -276,6 +275,7 @@ def test_a_scenario_is_saved_whole_or_not_at_all(
     assert session.kept == []
 
 
+@pytest.mark.slow
 def test_frames_have_rows_words_and_history(session: Session) -> None:
     frames = Frames(session)
     assert frames.frame()["verdict"]["head"] == "At rest"

@@ -137,6 +137,17 @@ WRONG: dict[str, tuple[Callable[[], Any], type[Exception], str]] = {
         TypeError,
         "ablation: beside = None (NoneType): must be a sequence, such as [None]",
     ),
+    "a name of an ablation": (
+        lambda: E.ablation(thread=1),
+        TypeError,
+        "ebac.ablation has no parameter 'thread', did you mean 'threads'; it has: population, law, changes, beside, "
+        "measures, base, seed, threads, executor, out, resume, progress",
+    ),
+    "measures": (
+        lambda: E.ablation(measures=["good"]),
+        TypeError,
+        "ebac.ablation takes measures, of ebac.studies.MEASURES, not 'good' (str)",
+    ),
     "folder": (
         lambda: E.sweep([SHORT], ["direct"], out={}),
         TypeError,

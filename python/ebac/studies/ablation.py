@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import inspect
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -10,6 +11,7 @@ from textwrap import shorten
 from typing import Any
 
 from ebac._core import Device, Timing
+from ebac._util.arguments import refuse_unknown
 from ebac._util.plural import plural
 from ebac._util.sequences import require_each, several
 from ebac._util.wrong_calls import plain_function
@@ -258,6 +260,11 @@ def ablation(
     TypeError
         For a law in Python that cannot be changed.
     """
+    taken = inspect.signature(study).parameters.values()
+    own = inspect.signature(ablation).parameters.values()
+    names = [p.name for p in (*own, *taken) if p.kind is p.KEYWORD_ONLY]
+    refuse_unknown("ebac.ablation", run, ["population", "law", *names])
+    require_each(measures, Measure, "ebac.ablation", "measures, of ebac.studies.MEASURES")
     found = tuple(pieces(law, changes))
     name = law_name(law)
     laws: dict[str, AnyLaw] = {name: law}
