@@ -89,6 +89,16 @@ def test_the_best_is_no_worse_than_the_design_and_both_are_judged_on_the_test_ha
     assert rows[0].good == found.test[0].good
 
 
+@pytest.mark.parametrize(("ending", "row"), ROWS)
+def test_the_package_keeps_what_a_search_prints(ending: str, row: dict[str, Any]) -> None:
+    """The ranges that were searched were missing, without which no search can be repeated."""
+    searched = tuning.ranges.Ranges(row["law"], tuning.RANGES[row["law"]]).searched(row["changes"])
+    assert row["parameters"] == list(searched)
+    assert row["observer"] is (ending == "-tuned-observer")
+    given = {one["name"]: one["value"] for one in row["parameters"] if one["value"] is not None}
+    assert given == row["changes"]
+
+
 def test_a_law_in_python_is_tuned_within_the_ranges_that_its_fields_declare() -> None:
     base = ebac.Scenario(seconds=0.6)
     (found,) = quick(Own(), base=base, training=FEW[:1], test=FEW[:1])

@@ -86,7 +86,7 @@ def tune(
 
     * `ebac tune tca-damped --device-noise 0.03 --observer-every-law --out tuned`
 
-    * `ebac tune all --device-noise 0.03 --json > tuned_rivals.json`: how the tuned laws of this package were made
+    * `ebac tune all --device-noise 0.03 --evaluations 480 --json > tuned_rivals.json`: the tuned laws of this package
     """
     from ebac.operators import Operators
     from ebac.studies import TuningInterrupted
