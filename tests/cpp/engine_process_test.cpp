@@ -6,6 +6,7 @@
 #include <chrono>
 #include <csignal>
 #include <filesystem>
+#include <fstream>
 #include <functional>
 #include <set>
 #include <stdexcept>
@@ -181,6 +182,8 @@ TEST(SharedEngineChannel, WhatADeadLoopHasLeftIsReplacedAndWhatALivingOneHasIsNo
     Child loop([&] {
       new SharedEngineChannel(mine);
       new SharedEngineChannel;  // under a name of its own
+      const std::string cut = "/dev/shm/ebac-engine-" + std::to_string(getpid()) + "-9";
+      std::ofstream{cut};  // as what somebody has truncated
       _exit(0);
     });
     const int process = loop.process();

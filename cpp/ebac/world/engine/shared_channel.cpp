@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cctype>
+#include <charconv>
 #include <filesystem>
 #include <new>
 #include <stdexcept>
+#include <string_view>
 #include <system_error>
 #include <utility>
 
@@ -15,7 +17,7 @@ namespace ebac::world {
 namespace {
 
 constexpr std::size_t kLongest = 200;
-constexpr const char* kOwn = "ebac-engine-";
+constexpr std::string_view kOwn = "ebac-engine-";
 
 /// Whether the process that shared something under that name has died without taking it away.
 bool left_behind(const std::string& name) {
@@ -29,18 +31,29 @@ bool left_behind(const std::string& name) {
   }
 }
 
-/// Takes away what loops that were killed have left, under names of their own.
+/// The process of a loop's own name; 0 for another name.
+int owner_of(const std::string& name) {
+  int process = 0;
+  if (name.starts_with(kOwn)) {
+    std::from_chars(name.data() + kOwn.size(), name.data() + name.size(), process);
+  }
+  return process;
+}
+
+/// Takes away what loops that were killed have left, under names of their own; what lies in it may be damaged.
 void clean_up() {
   std::error_code none;
   for (const auto& file : std::filesystem::directory_iterator("/dev/shm", none)) {
     const std::string name = file.path().filename().string();
-    if (name.starts_with(kOwn) && left_behind("/" + name)) rt::SharedMemory::remove("/" + name);
+    const int process = owner_of(name);
+    if (process > 0 && !rt::process_lives(process)) rt::SharedMemory::remove("/" + name);
   }
 }
 
 std::string own_name() {
   static std::atomic<int> count{0};
-  return "/" + (kOwn + std::to_string(rt::own_process())) + "-" + std::to_string(++count);
+  return "/" + std::string(kOwn) + std::to_string(rt::own_process()) + "-" +
+         std::to_string(++count);
 }
 
 rt::SharedMemory made(const std::string& name) {
