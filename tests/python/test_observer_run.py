@@ -155,12 +155,13 @@ def test_the_same_press_has_the_same_verdict_on_either_clock_and_as_a_scenario(
     virtual, scenario = known.simulate(), ebac.simulate(known.scenario(), known.design())
     contacts = [ebac.contact(trace, truth=False) for trace in (real, virtual, scenario)]
     assert [one.verdict for one in contacts[1:]] == ["exact and quiet"] * 2
-    assert contacts[0].exact
-    assert contacts[0].still
-    for one in contacts:
-        assert contacts[2].rest_m == pytest.approx(one.rest_m, abs=2 * known.device.count)
-    # A late tick is a step of the force, and the handle moves; a late force, and the law goes to the encoder.
+    # While ticks are skipped the handle moves on; a late tick is a step of the force; with a late force the law goes to
+    # the encoder.
     late = real[1.0:]
+    whole = not late["skipped"].any()
+    assert (contacts[0].exact and contacts[0].still) or not whole
+    for one in contacts if whole else contacts[1:]:
+        assert contacts[2].rest_m == pytest.approx(one.rest_m, abs=2 * known.device.count)
     prompt = late["lateness"].max() < 3e-4 and late["est.weight"].min() == 1  # s
     assert contacts[0].quiet or not prompt
     for one in contacts if prompt else contacts[1:]:
