@@ -193,9 +193,15 @@ TEST(SharedEngineChannel, WhatADeadLoopHasLeftIsReplacedAndWhatALivingOneHasIsNo
     EXPECT_NE(message([&] { const EngineClient client(mine); }).find("has ended"),
               std::string::npos);
   }
+  const std::string named =
+      "/ebac-engine-" + std::to_string(1 << 30) + "-1";  // as of no living process
+  const SharedEngineChannel lives(named);
   const SharedEngineChannel again(mine);
   const SharedEngineChannel cleans;
-  for (const int process : owners()) EXPECT_TRUE(rt::process_lives(process)) << process;
+  EXPECT_TRUE(there(named));
+  for (const int process : owners()) {
+    EXPECT_TRUE(process == 1 << 30 || rt::process_lives(process)) << process;
+  }
   EXPECT_NE(message([&] { const SharedEngineChannel taken(mine); }).find("is taken"),
             std::string::npos);
 }

@@ -275,6 +275,19 @@ def test_a_scenario_is_saved_whole_or_not_at_all(
     assert session.kept == []
 
 
+def test_a_save_replaces_no_file_of_another_session(
+    session: Session, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Which has taken the same name in the same second."""
+    theirs = session.folder / "live-1.toml"
+    session.folder.mkdir(parents=True, exist_ok=True)
+    theirs.write_text("theirs")
+    monkeypatch.setattr(Session, "_new", lambda *_: theirs)
+    with pytest.raises(FileExistsError):
+        session.save()
+    assert theirs.read_text() == "theirs"
+
+
 @pytest.mark.slow
 def test_frames_have_rows_words_and_history(session: Session) -> None:
     frames = Frames(session)

@@ -40,13 +40,12 @@ class RunStateMachine {
  public:
   explicit RunStateMachine(const RunPlan& plan = {}) EBAC_RT : plan_(plan) {}
 
-  /// False if a fault is latched, as it stays.
+  /// False while it runs, and for good after a fault.
   bool start() EBAC_RT {
     if (state_ != LoopState::kIdle) return false;
     state_ = plan_.arm ? LoopState::kArm : LoopState::kRun;
     ran_ = stopped_ = 0;
     gain_ = plan_.soft_start > 0 || plan_.arm ? 0 : 1;
-    fault_ = Fault::kNone;
     return true;
   }
 

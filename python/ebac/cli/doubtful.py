@@ -110,9 +110,9 @@ def note_configuration(file: Path | str, known: Configuration) -> None:
 
 def note_rate(rate: float, known: Configuration) -> None:
     """Print that the drives have the SYNC period of another rate than that of --rate [Hz]."""
-    from ebac._util.doubts.drives import of_rate
+    from ebac._util.doubts.drives import of_sync
 
-    _print(*of_rate(known, RATE), where=f"{RATE} {rate:g}")
+    _print(*of_sync(known, RATE), where=f"{RATE} {rate:g}")
 
 
 def note_weak_motor(population: Operators, base: Scenario) -> None:

@@ -58,7 +58,7 @@ class Key:
 
     def show(self, value: object) -> str:
         """Return a value with the unit of this key."""
-        if isinstance(value, int) and abs(value) >= 10**20:
+        if isinstance(value, int) and abs(value) >= 10**20:  # nobody reads more digits
             value = nearest_float(value)
         text = f"{value:g}" if isinstance(value, float) else f"{value!r}"
         return f"{text} {self.unit}".rstrip()

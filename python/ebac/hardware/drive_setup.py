@@ -48,10 +48,8 @@ def nodes_of(configuration: Configuration, *, simulate: bool) -> tuple[Node, ...
     )
 
 
-def other_sync(
-    known: Configuration, *, own: str = "timing.dt = {:g}"
-) -> list[tuple[int, str, str]]:
-    """Return the drives whose profile has another SYNC period than the loop; `own` is how the loop takes theirs.
+def other_sync(known: Configuration, option: str = "") -> list[tuple[int, str, str]]:
+    """Return the drives whose profile has another SYNC period than the loop; `option` is what gives that of the loop.
 
     Returns
     -------
@@ -69,7 +67,8 @@ def other_sync(
             f"sync.period = {period:g} s in its profile, timing.dt = {dt:g} s: `ebac run` takes timing.dt for 0x1006, "
             f'and {then}, because of bus.setup = "{known.setup}"'
         )
-        remedy = f"give sync.period = {dt:g} in the profile and `ebac drive apply` it, or {own.format(period)}"
+        own = f"leave out {option}" if option else f"timing.dt = {period:g}"
+        remedy = f"give sync.period = {dt:g} in the profile and `ebac drive apply` it, or {own}"
         found.append((node.id, text, remedy if verifies else ""))
     return found
 

@@ -45,7 +45,14 @@ class SessionFiles(SessionParts):
         with self._lock:
             path = self._new(".toml")
             text = self.scenario.to_toml(folder=path.parent)
-            write_text(path, f"# law: {self.choices.law}\n{text}")
+            path.touch(
+                exist_ok=False
+            )  # the name of this session, should another one write in the same second
+            try:
+                write_text(path, f"# law: {self.choices.law}\n{text}")
+            except OSError:
+                path.unlink()
+                raise
             self.kept.append(path)
             return path
 

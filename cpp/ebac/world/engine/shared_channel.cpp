@@ -17,43 +17,44 @@ namespace ebac::world {
 namespace {
 
 constexpr std::size_t kLongest = 200;
-constexpr std::string_view kOwn = "ebac-engine-";
+constexpr std::string_view kOwn = "/ebac-engine-";
 
-/// Whether the process that shared something under that name has died without taking it away.
+/// The process of a name that a loop has made for itself, as "/ebac-engine-1234-1"; 0 for another name.
+int maker(std::string_view name) {
+  int process = 0, count = 0;
+  if (!name.starts_with(kOwn)) return 0;
+  const char* end = name.data() + name.size();
+  const auto first = std::from_chars(name.data() + kOwn.size(), end, process);
+  if (first.ptr == end || *first.ptr != '-') return 0;
+  return std::from_chars(first.ptr + 1, end, count).ptr == end ? process : 0;
+}
+
+/// Whether the process that shared something under that name has died without taking it away. What lies there may be
+/// damaged; then the name has the process.
 bool left_behind(const std::string& name) {
+  int process = maker(name);
   try {
     const rt::SharedMemory memory = rt::SharedMemory::opened(name);
-    if (memory.bytes() < offsetof(EngineSegment, mail)) return false;
     const auto* segment = static_cast<const EngineSegment*>(memory.at());
-    return segment->valid() && !rt::process_lives(segment->loop);
-  } catch (const std::exception&) {  // it is not ours, or is gone
-    return false;
+    const bool whole = memory.bytes() >= offsetof(EngineSegment, mail);
+    if (whole && segment->valid()) process = segment->loop;
+  } catch (const std::exception&) {  // it is empty, not ours, or gone
   }
+  return process > 0 && !rt::process_lives(process);
 }
 
-/// The process of a loop's own name; 0 for another name.
-int owner_of(const std::string& name) {
-  int process = 0;
-  if (name.starts_with(kOwn)) {
-    std::from_chars(name.data() + kOwn.size(), name.data() + name.size(), process);
-  }
-  return process;
-}
-
-/// Takes away what loops that were killed have left, under names of their own; what lies in it may be damaged.
+/// Takes away what loops that were killed have left, under names of their own.
 void clean_up() {
   std::error_code none;
   for (const auto& file : std::filesystem::directory_iterator("/dev/shm", none)) {
-    const std::string name = file.path().filename().string();
-    const int process = owner_of(name);
-    if (process > 0 && !rt::process_lives(process)) rt::SharedMemory::remove("/" + name);
+    const std::string name = "/" + file.path().filename().string();
+    if (maker(name) > 0 && left_behind(name)) rt::SharedMemory::remove(name);
   }
 }
 
 std::string own_name() {
   static std::atomic<int> count{0};
-  return "/" + std::string(kOwn) + std::to_string(rt::own_process()) + "-" +
-         std::to_string(++count);
+  return std::string(kOwn) + std::to_string(rt::own_process()) + "-" + std::to_string(++count);
 }
 
 rt::SharedMemory made(const std::string& name) {

@@ -10,7 +10,7 @@ if TYPE_CHECKING:
 
 def doubts(known: Configuration) -> list[str]:
     """Return a sentence for each value of the drives that is likely not meant, with the remedy."""
-    return other_motor(known) or [*_weak(known), *_strong(known), *_sync(known)]
+    return other_motor(known) or [*_weak(known), *_strong(known), *of_sync(known)]
 
 
 def other_motor(known: Configuration) -> list[str]:
@@ -43,19 +43,15 @@ def _strong(known: Configuration) -> list[str]:
     return [f"{text}; {remedy}" for _, text, remedy in found]
 
 
-def of_rate(known: Configuration, option: str) -> list[str]:
-    """Return which drives have the SYNC period of another rate than that of an option."""
-    return _sync(known, own=f"leave out {option}")
-
-
-def _sync(known: Configuration, **how: str) -> list[str]:
+def of_sync(known: Configuration, option: str = "") -> list[str]:
+    """Return which drives have another SYNC period than the loop; `option` is what gives that of the loop."""
     from ebac._util.toml import parsed
     from ebac.hardware.drive_setup import other_sync
 
     if "bus" not in parsed(known.text):  # its drives are only simulated
         return []
     alike: dict[str, list[str]] = {}
-    for node, text, remedy in other_sync(known, **how):
+    for node, text, remedy in other_sync(known, option):
         if remedy:
             alike.setdefault(f"{text}; {remedy}", []).append(str(node))
     return [
